@@ -50,13 +50,21 @@ class FamilyComparison:
                 yield asset, {name: infer_over(current.get(name), label) for name, label in rows if label}
 
 
-def compare_assets(family: LabelFamily, speak: Callable[[Label | None], Label | None]) -> FamilyComparison:
-    """Compare the hulls of all assets that can be read.
+@dataclass(frozen=True, eq=False)
+class FamilyDescription:
+    """The hulls of all assets, not yet compared. hulls, current, lost, assets: as in `FamilyComparison`."""
 
-    speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing.
-    Raises ProjectError: no vocabulary, or nothing is said at all.
-    """
-    store, vocabulary = family.store, family.vocabulary
+    hulls: Mapping[str, Mapping[str, str]]
+    current: Mapping[str, HullLabels]
+    lost: dict[str, str]
+    assets: tuple[str, ...]
+    table: label_model.FamilyTable
+    describer: _Describer
+
+
+def describe_assets(family: LabelFamily) -> FamilyDescription:
+    """Describe the hulls of all assets that can be read. Raises ProjectError: there are labels and no vocabulary."""
+    store = family.store
     with family.stage(len(store.assets()), "reading") as advance:
         facts = dict(iterate_asset_index(store.found, store.layout, execution=family.execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
@@ -75,11 +83,24 @@ def compare_assets(family: LabelFamily, speak: Callable[[Label | None], Label | 
     del facts
     described = describer.describe(list(current))
     assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
-    del described
+    return FamilyDescription(hulls, current, lost, assets, table, describer)
+
+
+def compare_assets(
+    family: LabelFamily, speak: Callable[[Label | None], Label | None], described: FamilyDescription | None = None
+) -> FamilyComparison:
+    """Compare the hulls of all assets that can be read.
+
+    speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing; described:
+    the assets, if they are described already. Raises ProjectError: no vocabulary, or nothing is said at all.
+    """
+    store, vocabulary = family.store, family.vocabulary
+    described = described or describe_assets(family)
+    hulls, current, lost, assets = described.hulls, described.current, described.lost, described.assets
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
     seen = label_model.Observations.of(observed)
-    table = describer.set_upright(assets, table, seen)
+    table = described.describer.set_upright(assets, described.table, seen)
     compared = FamilyComparison(
         hulls, current, lost, assets, observed, _compute_isolated(table, seen, family.execution.stop)
     )

@@ -1,26 +1,39 @@
-"""What an answer says of hulls: read leniently, and added up over pictures, questions and repeats."""
+"""Questions asked, once more where something is open, and what their answers say of hulls: read leniently, and added up
+over questions and repeats."""
 
 from __future__ import annotations
 
 import json
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, TypeVar
 
-from meshforge.common import join_names
+from meshforge.common import join_names, relative_name, write_atomically
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import QuestionError
+from meshforge.labels.vlm.prompt import HullKey, HullQuestion, PromptConfig
+from meshforge.labels.vlm.question import Message, Reply, VlmQuestion
+from meshforge.symbolic import Label
 
 _OBJECT = re.compile(r"\{[^{}]*\}")
 _NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
+_AGAIN = """\
+That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
+_UNANSWERED = "the question got no answer"
+_QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
 
+T = TypeVar("T")
 LabelVote = tuple[str | None, float]
 """What one answer says of a hull, None for unknown, and how well it was seen, in 0..1."""
 
 _AGAINST = 0.4
 """What speaks against every label from the outset, in votes of one clear look: one vote alone makes a confidence of
 0.71, two that agree 0.83, two against one 0.59."""
-_GLIMPSE = 300.0
-"""Pixels of 1024 x 1024 of a hull from which on a look at it counts more than half."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +97,6 @@ def _entries(text: str) -> Iterator[tuple[int, str]]:
                 yield int(match[1]), word
 
 
-def clearness(pixels: int, size: int) -> float:
-    """Return how well a hull is seen of which so many pixels show in pictures of `size` x `size`, in 0..1."""
-    full = pixels * (1024 / size) ** 2
-    return full / (full + _GLIMPSE)
-
-
 def decide_label(votes: Iterable[LabelVote], vocabulary: Sequence[str]) -> tuple[str, float] | None:
     """Return the label with most evidence and its confidence; None where nothing was said, or unknown has most.
 
@@ -102,3 +109,87 @@ def decide_label(votes: Iterable[LabelVote], vocabulary: Sequence[str]) -> tuple
     if best is None or not score[best]:
         return None
     return best, round(score[best] / (sum(score.values()) + _AGAINST), 4)
+
+
+def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
+    """Return the question with its answer, and words that ask for what that left open; with more room if it was cut."""
+    odd = ", ".join(json.dumps(word, ensure_ascii=False) for word in answer.unrecognised)
+    why = f" ({odd} {'is no label' if len(answer.unrecognised) == 1 else 'are no labels'})" if odd else ""
+    text = _AGAIN.format(why=why, numbers=", ".join(map(str, answer.open)))
+    messages = *question.messages, Message.assistant(reply.text[:_QUOTED] or "-"), Message.user(text)
+    return replace(question, messages=messages, limit=question.limit * (2 if reply.is_cut else 1))
+
+
+@dataclass(frozen=True, slots=True)
+class VlmAnswers:
+    """What a model said of hulls. labels: by asset and hull; open: why others that were asked about have none.
+
+    failed: complaints about questions that got no answer, in their order, each once; asked: the digests of all
+    questions that got one.
+    """
+
+    labels: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
+    open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    failed: tuple[str, ...] = ()
+    asked: tuple[str, ...] = ()
+
+    def only(self, wanted: Collection[HullKey]) -> VlmAnswers:
+        """Return what was said of some of the hulls."""
+
+        def keep(asset: str, own: Mapping[str, T]) -> Mapping[str, T]:
+            return {hull: one for hull, one in own.items() if (asset, hull) in wanted}
+
+        labels = {asset: keep(asset, own) for asset, own in self.labels.items()}
+        return replace(self, labels=labels, open={asset: keep(asset, own) for asset, own in self.open.items()})
+
+
+def ask_questions(client: Client, config: PromptConfig, questions: Iterable[HullQuestion]) -> VlmAnswers:
+    """Return what a model says of hulls; what an answer leaves open is asked once more."""
+    votes, why = defaultdict[HullKey, list[LabelVote]](list), dict[HullKey, str]()
+    failed, asked = dict[str, None](), list[str]()
+    for one in questions:
+        question, left = one.question, tuple(one.hulls)
+        why = {one.hulls[number]: _UNANSWERED for number in left} | why
+        for _ in range(2):
+            try:
+                reply = client.ask(question)
+            except QuestionError as error:
+                failed[error.sentence] = None
+                break
+            asked.append(question.digest(client.endpoint))
+            answer = read_answer(reply.text, left, config.vocabulary, config.unknown)
+            for number, label in answer.labels.items():
+                votes[one.hulls[number]].append((label, one.weights[number]))
+            left = answer.open
+            cause = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
+            why |= {one.hulls[number]: cause for number in left}
+            if not left:
+                break
+            question = ask_again(question, reply, answer)
+    labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
+    for (asset, hull), cause in why.items():
+        if found := decide_label(votes[asset, hull], config.vocabulary):
+            labels[asset][hull] = Label(*found, "vlm")
+        else:
+            left_open[asset][hull] = "the model does not know" if votes[asset, hull] else cause
+    return VlmAnswers(dict(labels), dict(left_open), tuple(failed), tuple(asked))
+
+
+def write_page(folder: Path, name: str, answers: VlmAnswers) -> None:
+    """Write `pages/NAME.html` into a folder of answers; name: of what was asked about, maybe with folders."""
+    from jinja2 import Environment, StrictUndefined  # lazy: 0.05 s, only answers of a model need it
+
+    path = folder / "pages" / f"{name}.html"
+    kept = [_read_kept(folder / "answers" / f"{digest}.json") for digest in answers.asked]
+    source = (files("meshforge.labels.vlm") / "page.html.j2").read_text("utf-8")
+    template = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True).from_string(source)
+    pictures = relative_name(folder / "pictures", path.parent)
+    write_atomically(path, template.render(name=name, answers=answers, kept=kept, pictures=pictures))
+
+
+def _read_kept(file: Path) -> Any:
+    """A question with its answer, None where it cannot be read."""
+    try:
+        return json.loads(file.read_bytes())
+    except (OSError, ValueError):
+        return None

@@ -1,59 +1,28 @@
-"""Labels from a model, each asset written as soon as it is answered; and a forecast of what that costs."""
+"""Labels from a model: of exemplars, propagated to all hulls that are like them, or of every hull; and a
+forecast of what that costs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, replace
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
-from meshforge.common import UsageError, describe_error
-from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.label_model import reference_label
+from meshforge.labels.family_comparison import FamilyDescription, compare_assets, describe_assets
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
+from meshforge.labels.vlm.answer import VlmAnswers, ask_questions, write_page
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
-from meshforge.labels.vlm.mesh_asker import MeshAsker, OpenAnswers, write_page
-from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions
-from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
-from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
+from meshforge.labels.vlm.plan import DrawnQuestions, QuestionPlan, draw_questions, plan_every_hull, plan_exemplars
+from meshforge.labels.vlm.prompt import PromptConfig
+from meshforge.store import Store, VlmSettings
+from meshforge.symbolic import Label
 
-
-@dataclass(frozen=True, slots=True)
-class _AssetQuestions:
-    """What is asked about an asset. hulls: digests by name, in order; wanted: the hulls whose labels may change.
-
-    error: why it cannot be read or drawn.
-    """
-
-    asset: str
-    hulls: Mapping[str, str] = field(default_factory=dict)
-    wanted: tuple[str, ...] = ()
-    questions: tuple[HullQuestion, ...] = ()
-    error: str | None = None
-
-
-def _draw_assets(
-    store: Store, config: PromptConfig, execution: ExecutionOptions
-) -> Generator[_AssetQuestions, None, None]:
-    """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
-    assets = store.assets()
-    items = list(zip(assets, store.asset_files(assets), strict=True))
-    with closing(execute(partial(_draw, config), items, execution)) as work:
-        for asset, found in zip(assets, work, strict=True):
-            if isinstance(found, WorkerFailure):
-                found = _AssetQuestions(asset, error=f"{store.path(asset)}: {found.why}")
-            yield found
-
-
-def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> _AssetQuestions:
-    asset, place = item
-    try:
-        mesh = place.read_mesh()
-        wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
-        return _AssetQuestions(asset, hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, config, asset)))
-    except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return _AssetQuestions(asset, error=describe_error(error, asset))
+_WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
 def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str], typed: Collection[str] = ()) -> None:
@@ -82,7 +51,9 @@ class VlmResult:
 
 
 class VlmLabeler(Labeler):
-    """Asks a vision-language model; labels of people and files stay. Answers are kept, so that none is paid for twice.
+    """Asks a vision-language model about exemplars, and propagates their labels to hulls that are like them; or asks
+    about every hull, where the settings say so. Labels of people and files stay. Answers are kept, so that none is paid
+    for twice.
 
     settings: those of the project when None; typed: addresses that the user typed, who thereby approves them: elsewhere
     but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking, and what was
@@ -101,73 +72,131 @@ class VlmLabeler(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         settings = self.settings or family.store.settings.vlm
         check_approved(Endpoint(settings), self.typed)
-        return LabelProposal(self._ask(family, PromptConfig(family.vocabulary, settings)))
+        config = PromptConfig(family.vocabulary, settings)
+        if settings.every_hull:
+            return LabelProposal(self._label_every_hull(family, config))
+        self.work = "propagating"
+        return LabelProposal(self._label_by_exemplars(family, config))
 
-    def _ask(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
-        store, stop = family.store, family.execution.stop or (lambda: False)
-        pending, reached = dict[str, tuple[_AssetQuestions, OpenAnswers]](), set[str]()
-        with _open_asker(store, config, replace(family.execution, stop=None), stop) as (client, asker, drawn):
+    def _label_every_hull(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
+        reached = set[str]()
+        with self._open_client(family, config, reached) as client:
+            for drawn, said in _ask(client, family, config, plan_every_hull(family.store)):
+                ((asset, hulls),) = drawn.assets.items()
+                if client.end and said.failed and not said.labels:
+                    continue  # the result says once that asking ended, and which assets were not reached
+                reached.add(asset)
+                problems = _list_problems(client, drawn, said)
+                labels, left = said.labels.get(asset, {}), said.open.get(asset, {})
+                yield (
+                    AssetLabels(asset, error=drawn.error)
+                    if drawn.error
+                    else _propose(asset, hulls, labels, {}, left, problems)
+                )
 
-            def finish(assets: Iterable[str]) -> Iterator[AssetLabels]:
-                for asset in assets:
-                    if labels := _read_answers(store, client, *pending.pop(asset)):
-                        reached.add(asset)
-                        yield labels
+    def _label_by_exemplars(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
+        """All labels are known before the first is given. Where asking ended early, only those that the model gave."""
+        described, reached = describe_assets(family), set[str]()
+        plans, answers = plan_exemplars(described), list[tuple[DrawnQuestions, VlmAnswers]]()
+        with self._open_client(family, config, reached) as client:
+            with family.stage(len(plans), "asking") as advance:
+                for one in _ask(client, family, config, plans):
+                    answers.append(one)
+                    advance()
+            labels = {asset: own for _, said in answers for asset, own in said.labels.items()}
+            left = {asset: own for _, said in answers for asset, own in said.open.items()}
+            problems = {next(iter(drawn.assets)): _list_problems(client, drawn, said) for drawn, said in answers}
+            is_whole = not client.end and len(answers) == len(plans)
+            reached |= {*described.hulls, *described.lost} if is_whole else {asset for asset in labels if labels[asset]}
+        shares = dict(_propagate(family, described, labels)) if is_whole and any(labels.values()) else {}
+        for asset in family.store.assets():
+            if asset in described.lost:
+                yield AssetLabels(asset, error=described.lost[asset])
+            elif asset in reached:
+                rows = labels.get(asset, {}), shares.get(asset, {}), left.get(asset, {}), problems.get(asset, ())
+                yield _propose(asset, described.hulls[asset], *rows)
 
-            while not (client.end or stop()) and (one := next(drawn, None)):
-                pending[one.asset] = one, asker.ask(one.wanted, one.questions)
-                yield from finish([asset for asset, (_, answers) in pending.items() if answers.is_done()])
-            yield from finish(list(pending))
+    @contextmanager
+    def _open_client(self, family: LabelFamily, config: PromptConfig, reached: Collection[str]) -> Iterator[Client]:
+        """A client, and the result when all is asked. reached: the assets whose labels are known by then."""
+        settings, stop = config.settings, family.execution.stop or (lambda: False)
+        folder = family.store.layout.vlm
+        with closing(Client(Endpoint(settings), folder, max_cost=settings.max_cost, stop=stop)) as client:
+            yield client
         if client.end and not client.usage.answered + client.usage.cached:
             raise client.end
-        unasked = tuple(asset for asset in store.assets() if asset not in reached)
+        unasked = tuple(asset for asset in family.store.assets() if asset not in reached)
         ended = client.end.message if client.end else "stopped" if unasked else None
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
 
 
-def _read_answers(store: Store, client: Client, drawn: _AssetQuestions, pending: OpenAnswers) -> AssetLabels | None:
-    if drawn.error:
-        return AssetLabels(drawn.asset, error=drawn.error)
-    answers, end = pending.result(), client.end
-    if end and answers.failed and not answers.labels:
-        return None  # the result says once that asking ended, and which assets were not reached
-    if answers.asked:
-        write_page(store.layout.vlm, drawn.asset, answers)
-    failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
-    reasons = {hull: ("model", hull) for hull in answers.labels}
-    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed, open=answers.open)
+def _ask(
+    client: Client, family: LabelFamily, config: PromptConfig, plans: Sequence[QuestionPlan]
+) -> Iterator[tuple[DrawnQuestions, VlmAnswers]]:
+    """Yield questions with their answers, in order, as long as asking goes on; several are under way at once."""
+    stop, concurrency = family.execution.stop or (lambda: False), config.settings.concurrency
+    threads = ThreadPoolExecutor(concurrency, "asking")
+    waiting = deque[tuple[DrawnQuestions, Future[VlmAnswers]]]()
+
+    def take() -> tuple[DrawnQuestions, VlmAnswers]:
+        drawn, future = waiting.popleft()
+        while not future.done():
+            stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
+            wait([future], timeout=0.1)
+        said = future.result()
+        if said.asked:
+            write_page(family.store.layout.vlm, drawn.plan.name, said)
+        return drawn, said.only(drawn.wanted)
+
+    drawing = replace(family, execution=replace(family.execution, stop=None))
+    try:
+        with closing(draw_questions(drawing, plans, config)) as questions:
+            while not (client.end or stop()) and (one := next(questions, None)):
+                waiting.append((one, threads.submit(ask_questions, client, config, one.questions)))
+                while waiting and (len(waiting) > _WAITING * concurrency or waiting[0][1].done()):
+                    yield take()
+        while waiting:
+            yield take()
+    finally:  # no more is asked; what is under way is kept when its answer comes, yet not waited for
+        threads.shutdown(wait=False, cancel_futures=True)
 
 
-@contextmanager
-def _open_asker(
-    store: Store, config: PromptConfig, execution: ExecutionOptions, stop: Callable[[], bool] = lambda: False
-) -> Iterator[tuple[Client, MeshAsker, Iterator[_AssetQuestions]]]:
-    """What asks about a project, and its assets as they are drawn."""
-    settings = config.settings
-    client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
-    with (
-        closing(client),
-        closing(MeshAsker(client, config, _read_examples(store, settings))) as asker,
-        closing(_draw_assets(store, config, execution)) as drawn,
-    ):
-        yield client, asker, drawn
+def _propose(
+    asset: str,
+    hulls: Mapping[str, str],
+    labels: Mapping[str, Label],
+    shares: Mapping[str, Label],
+    left: Mapping[str, str],
+    problems: Sequence[str],
+) -> AssetLabels:
+    """What is proposed for an asset: labels of the model, those propagated from these, and hulls that it left open."""
+    given = {**{hull: label for hull, label in shares.items() if hull not in left}, **labels}
+    reasons = {hull: ("model" if hull in labels else "likeness", hull) for hull in given}
+    return AssetLabels(asset, hulls, given, reasons, problems, open=left)
 
 
-def _read_examples(store: Store, settings: VlmSettings) -> Iterator[SymbolicMesh]:
-    """The labelled assets that are shown as examples, with labels that somebody gave."""
-    for asset in settings.examples:
-        mesh = store.mesh(asset)
-        guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
-        if len(guessed) == len(mesh.hulls):
-            remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
-            raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
-        yield mesh.with_labels(guessed)
+def _list_problems(client: Client, drawn: DrawnQuestions, said: VlmAnswers) -> list[str]:
+    end = client.end.sentence if client.end else None
+    return [*([drawn.error] if drawn.error else []), *(problem for problem in said.failed if problem != end)]
+
+
+def _propagate(
+    family: LabelFamily, described: FamilyDescription, answers: Mapping[str, Mapping[str, Label]]
+) -> Iterator[tuple[str, dict[str, Label]]]:
+    """Yield the labels of all hulls, by asset, that follow from answers and from what people and files say."""
+    heard = {
+        asset: {**answers.get(asset, {}), **{hull: one for hull, one in own.items() if reference_label(one)}}
+        for asset, own in described.current.items()
+    }
+    compared = compare_assets(family, lambda label: label, replace(described, current=heard))
+    labels = [label for place in range(len(compared.assets)) for label in compared.found.labels(place)]
+    return replace(compared, current=described.current).share_out(labels)
 
 
 @dataclass(slots=True)
 class VlmForecast:
-    """What asking would send. host, model, mode: who is asked, and how; key: the environment variable of the key, empty
-    where none is wanted, and whether it is set.
+    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars; key: the
+    environment variable of the key, empty where none is wanted, and whether it is set.
 
     assets, hulls: how many of them are asked about; questions, of which `known` have their answers already; pictures,
     input, output: what the others send, and tokens that this may come to; cost: their price [$], None where prices are
@@ -176,7 +205,7 @@ class VlmForecast:
 
     host: str
     model: str
-    mode: str
+    every_hull: bool
     key: str
     key_is_set: bool
     assets: int = 0
@@ -206,15 +235,19 @@ def forecast_vlm(
     settings = settings or store.settings.vlm
     endpoint = Endpoint(settings)
     config = PromptConfig(store.vocabulary if vocabulary is None else tuple(vocabulary), settings)
-    found = VlmForecast(endpoint.host, settings.model, settings.mode, endpoint.key_name, endpoint.has_key)
-    with _open_asker(store, config, execution) as (client, asker, drawn):
+    found = VlmForecast(endpoint.host, settings.model, settings.every_hull, endpoint.key_name, endpoint.has_key)
+    family = LabelFamily(store, config.vocabulary, execution, ignore_stage)
+    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
+    described = None if settings.every_hull else describe_assets(family)
+    found.unreadable = tuple(described.lost) if described else ()
+    plans = plan_exemplars(described) if described else plan_every_hull(store)
+    with closing(draw_questions(family, plans, config)) as drawn:
         while not (stop and stop()) and (one := next(drawn, None)):
             if one.error:  # `VlmLabeler` says then what is wrong
-                found.unreadable += (one.asset,)
-                continue
-            found.assets += bool(one.wanted)
+                found.unreadable += (*one.assets,)
+            found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
-            for asked in map(asker.add_examples, one.questions):
+            for asked in one.questions:
                 found.questions += 1
                 if client.find_answer(asked.question):
                     found.known += 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -47,11 +47,19 @@ _HULLS_NAMED = 6  # hulls that a name lists one by one
 
 @dataclass(frozen=True, eq=False)
 class LabelingSubject:
-    """A mesh, the hulls (indices) that pictures are to show and number, and the axis that points up."""
+    """A mesh, the hulls (indices) that pictures are to show and number, and the axis that points up.
+
+    numbers: those that stand on hulls, by index; a hull that has none there has its index.
+    """
 
     mesh: SymbolicMesh
     wanted: tuple[int, ...]
     up: Up
+    numbers: Mapping[int, int] = field(default_factory=dict)
+
+    def number_of(self, hull: int) -> int:
+        """Return what stands on a hull."""
+        return self.numbers.get(hull, hull)
 
     @cached_property
     def render_meshes(self) -> list[RenderMesh]:
@@ -124,9 +132,10 @@ class Arrangement:
     def describe(self, view: View) -> str:
         """Return what a picture from there shows, in words."""
         words = VIEW_WORDS[view]
-        if len(self.solid) < len(self.subject.render_meshes):
-            return f"{_list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
-        return f"{words}, close up of {_list_hulls(self.close)}" if self.close else words
+        solid, close = ([*map(self.subject.number_of, hulls)] for hulls in (self.solid, self.close))
+        if len(solid) < len(self.subject.render_meshes):
+            return f"{_list_hulls(solid)} alone, {words}" + (", close up" if close else "")
+        return f"{words}, close up of {_list_hulls(close)}" if close else words
 
     @cached_property
     def view_frame(self) -> ViewFrame:
@@ -190,7 +199,7 @@ class Arrangement:
         return prepare_for_rays(self._build_scene(faint), None)
 
 
-def _list_hulls(hulls: tuple[int, ...]) -> str:
+def _list_hulls(hulls: Sequence[int]) -> str:
     texts = [str(k) for k in hulls[:_HULLS_NAMED]]
     more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
     return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"
