@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from meshforge.common import UsageError, pluralize
 from meshforge.labels.vlm.cost import CostLimiter, Usage
 from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
-from meshforge.labels.vlm.question import AnswerCache, Reply, VlmQuestion, build_arguments, find_refused, probe_question
+from meshforge.labels.vlm.question import AnswerCache, Reply, VlmQuestion, build_body, find_refused, probe_question
 
 if TYPE_CHECKING:
     from openai import APIStatusError, OpenAI
@@ -131,7 +131,7 @@ class Client:
         mine = self._attempts
         mine.count, mine.bound = 0, self._limiter.upper_bound(question)
         try:
-            found = self._complete(build_arguments(question, self.endpoint, refused), retries)
+            found = self._complete(build_body(question, self.endpoint, refused), retries)
             mine.is_lost = False
             usage, cost = self._limiter.charge(question, _read_usage(found))
             reply = replace(self._read_reply(found), usage=usage, cost=cost)
@@ -143,13 +143,15 @@ class Client:
             self._unanswered, self._answered = 0, True
         return reply
 
-    def _complete(self, arguments: dict[str, Any], retries: int) -> Any:
+    def _complete(self, body: dict[str, Any], retries: int) -> Any:
         """What the SDK makes of the response, which it does not verify."""
         sdk = self._connect()
         import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
+        from openai.types.chat import ChatCompletion  # lazy: as openai
 
+        options: Any = {"max_retries": retries, "follow_redirects": False}  # nobody approved where a redirect leads
         try:
-            found: Any = sdk.with_options(max_retries=retries).chat.completions.create(**arguments)
+            found: Any = sdk.post("/chat/completions", cast_to=ChatCompletion, body=body, options=options)
         except openai.APITimeoutError as error:
             raise self._give_up(f"no answer within {self.endpoint.settings.timeout:g} seconds") from error
         except openai.APIConnectionError as error:
@@ -173,7 +175,7 @@ class Client:
 
     def _connect(self) -> OpenAI:
         try:
-            from openai import DefaultHttpxClient, OpenAI  # lazy: as openai
+            from openai import OpenAI  # lazy: as openai
         except ImportError as error:
             remedy = "Install it: pip install 'meshforge[vlm]'."
             raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error
@@ -196,12 +198,8 @@ class Client:
                     self._key = self.endpoint.key()
                 except UsageError as error:
                     raise EndError(error.problem, where=error.where, remedy=error.remedy) from error
-                self._sdk = CountedOpenAI(
-                    base_url=settings.base_url,
-                    api_key=self._key or _NO_KEY,
-                    timeout=settings.timeout,
-                    http_client=DefaultHttpxClient(follow_redirects=False),  # nobody approved where a redirect leads
-                )
+                key = self._key or _NO_KEY
+                self._sdk = CountedOpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout)
             return self._sdk
 
     def _begin_attempt(self) -> None:

@@ -223,7 +223,7 @@ def forecast_vlm(
     store: Store,
     settings: VlmSettings | None = None,
     *,
-    progress: Callable[[], None] | None = None,
+    progress: Callable[[], None] = lambda: None,
     stop: Callable[[], bool] | None = None,
     vocabulary: Sequence[str] | None = None,
     execution: ExecutionOptions = IN_PROCESS,
@@ -255,7 +255,7 @@ def forecast_vlm(
                 found.pictures += len(asked.question.digests)
                 found.input += estimate_tokens(asked.question)
                 found.output += asked.expected
-            if progress:
+            for _ in one.assets:
                 progress()
     if endpoint.is_priced:
         found.cost = endpoint.price(TokenCount(found.input, found.output))

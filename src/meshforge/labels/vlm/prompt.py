@@ -147,7 +147,8 @@ def _show_meshes(
     """The pictures and lines of text of some hulls; the hulls by number, and how well each is seen."""
     parts, hulls, weights = list[Part](), dict[int, HullKey](), dict[int, float]()
     for place, asked in enumerate(meshes):
-        numbers = {hull: len(hulls) + k for k, hull in enumerate(asked.hulls)}
+        index, begin = asked.mesh.index, len(hulls)
+        numbers = {hull: begin + k if len(meshes) > 1 else index[hull] for k, hull in enumerate(asked.hulls)}
         hulls |= {number: (asked.name, hull) for hull, number in numbers.items()}
         what = f"object {place + 1}" if len(meshes) > 1 else "the object"
         parts.append(f"This is {what}{f', {asked.name!r}' if config.settings.names else ''}.")

@@ -97,8 +97,8 @@ _OPTIONAL = {"response_format": "schema", "temperature": "temperature", "max_tok
 of the last there is another name."""
 
 
-def build_arguments(question: VlmQuestion, endpoint: Endpoint, refused: Collection[str] = ()) -> dict[str, Any]:
-    """Return what the SDK's `chat.completions.create` takes to put a question to the model; refused: to be left out."""
+def build_body(question: VlmQuestion, endpoint: Endpoint, refused: Collection[str] = ()) -> dict[str, Any]:
+    """Return the request that puts a question to the model; refused: what is left out of it."""
     form = {"name": "answer", "strict": True, "schema": question.schema}
     every: dict[str, Any] = {
         "model": endpoint.settings.model,
@@ -107,9 +107,9 @@ def build_arguments(question: VlmQuestion, endpoint: Endpoint, refused: Collecti
         "temperature": question.temperature,
         "max_tokens": question.limit,
         "max_completion_tokens": question.limit if "max_tokens" in refused else None,
-        "extra_body": dict(endpoint.settings.extra),
     }
-    return {name: value for name, value in every.items() if value is not None and name not in refused}
+    kept = {name: value for name, value in every.items() if value is not None and name not in refused}
+    return kept | dict(endpoint.settings.extra)
 
 
 def find_refused(complaint: str, refused: Collection[str]) -> str | None:

@@ -198,4 +198,5 @@ def model_of(project: Project) -> Model | None:
         why = error.message
     if find_spec("openai") is None:
         why = "This needs the extra: pip install 'meshforge[vlm]'"
-    return Model(name=settings.model, host=host, mode=settings.mode, max_cost=settings.max_cost, why=why)
+    every, most = settings.every_hull, settings.max_cost
+    return Model(name=settings.model, host=host, every_hull=every, max_cost=most, why=why)

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.labels.vlm.answer import HullAnswer, LabelVote, clearness, decide_label, read_answer
+from meshforge.labels.vlm.answer import HullAnswer, LabelVote, decide_label, read_answer
+from meshforge.labels.vlm.prompt import clearness
 
 WORDS = ("leg", "table top", "drawer_front", "Füße")
 RIGHT = '{"hulls": [{"number": 0, "label": "leg"}, {"number": 2, "label": "table top"}]}'
