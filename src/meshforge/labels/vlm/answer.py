@@ -24,6 +24,7 @@ _NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
 _AGAIN = """\
 That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
 _UNANSWERED = "the question got no answer"
+NOT_KNOWN = "the model does not know"
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
 
@@ -171,7 +172,7 @@ def ask_questions(client: Client, config: PromptConfig, questions: Iterable[Hull
         if found := decide_label(votes[asset, hull], config.vocabulary):
             labels[asset][hull] = Label(*found, "vlm")
         else:
-            left_open[asset][hull] = "the model does not know" if votes[asset, hull] else cause
+            left_open[asset][hull] = NOT_KNOWN if votes[asset, hull] else cause
     return VlmAnswers(dict(labels), dict(left_open), tuple(failed), tuple(asked))
 
 

@@ -13,7 +13,7 @@ from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.label_model import reference_label
 from meshforge.labels.family_comparison import FamilyDescription, compare_assets, describe_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
-from meshforge.labels.vlm.answer import VlmAnswers, ask_questions, write_page
+from meshforge.labels.vlm.answer import NOT_KNOWN, VlmAnswers, ask_questions, write_page
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
@@ -22,6 +22,8 @@ from meshforge.labels.vlm.prompt import PromptConfig
 from meshforge.store import Store, VlmSettings
 from meshforge.symbolic import Label
 
+_SURE = 0.7  # of what one clear look says
+_LIKE_UNKNOWN = "the model does not know hulls that are like it"
 _WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
@@ -108,12 +110,16 @@ class VlmLabeler(Labeler):
             problems = {next(iter(drawn.assets)): _list_problems(client, drawn, said) for drawn, said in answers}
             is_whole = not client.end and len(answers) == len(plans)
             reached |= {*described.hulls, *described.lost} if is_whole else {asset for asset in labels if labels[asset]}
-        shares = dict(_propagate(family, described, labels)) if is_whole and any(labels.values()) else {}
+        shares = dict(_propagate(family, described, labels, left, config.unknown)) if is_whole else {}
         for asset in family.store.assets():
             if asset in described.lost:
                 yield AssetLabels(asset, error=described.lost[asset])
             elif asset in reached:
-                rows = labels.get(asset, {}), shares.get(asset, {}), left.get(asset, {}), problems.get(asset, ())
+                own, known = shares.get(asset, {}), described.current[asset]
+                alike = {hull: _LIKE_UNKNOWN for hull, one in own.items() if one.name == config.unknown}
+                bare = {hull: why for hull, why in (alike | left.get(asset, {})).items() if hull not in known}
+                given = {hull: one for hull, one in own.items() if hull not in alike}
+                rows = labels.get(asset, {}), given, bare, problems.get(asset, ())
                 yield _propose(asset, described.hulls[asset], *rows)
 
     @contextmanager
@@ -181,13 +187,24 @@ def _list_problems(client: Client, drawn: DrawnQuestions, said: VlmAnswers) -> l
 
 
 def _propagate(
-    family: LabelFamily, described: FamilyDescription, answers: Mapping[str, Mapping[str, Label]]
+    family: LabelFamily,
+    described: FamilyDescription,
+    answers: Mapping[str, Mapping[str, Label]],
+    left: Mapping[str, Mapping[str, str]],
+    unknown: str,
 ) -> Iterator[tuple[str, dict[str, Label]]]:
-    """Yield the labels of all hulls, by asset, that follow from answers and from what people and files say."""
-    heard = {
-        asset: {**answers.get(asset, {}), **{hull: one for hull, one in own.items() if reference_label(one)}}
-        for asset, own in described.current.items()
-    }
+    """Yield the labels of all hulls, by asset, that follow from answers and from what people and files say.
+
+    What the model does not know counts as a label, too: `unknown` is that of hulls which are like these.
+    """
+    heard = dict[str, dict[str, Label]]()
+    for asset, own in described.current.items():
+        heard[asset] = {h: Label(unknown, _SURE, "vlm") for h, why in left.get(asset, {}).items() if why == NOT_KNOWN}
+        heard[asset] |= answers.get(asset, {})
+        heard[asset] |= {hull: one for hull, one in own.items() if reference_label(one)}
+    if not any(heard.values()):
+        return iter(())
+    family = replace(family, vocabulary=(*family.vocabulary, unknown))
     compared = compare_assets(family, lambda label: label, replace(described, current=heard))
     labels = [label for place in range(len(compared.assets)) for label in compared.found.labels(place)]
     return replace(compared, current=described.current).share_out(labels)
