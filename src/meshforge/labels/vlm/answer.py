@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from meshforge.common import join_names, relative_name, write_atomically
 from meshforge.labels.vlm.client import Client
@@ -28,13 +28,9 @@ NOT_KNOWN = "the model does not know"
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
 
-T = TypeVar("T")
-LabelVote = tuple[str | None, float]
-"""What one answer says of a hull, None for unknown, and how well it was seen, in 0..1."""
-
 _AGAINST = 0.4
-"""What speaks against every label from the outset, in votes of one clear look: one vote alone makes a confidence of
-0.71, two that agree 0.83, two against one 0.59."""
+"""What speaks against every label from the outset, in votes: one vote alone makes a confidence of 0.71, two that agree
+0.83, two against one 0.59."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,18 +94,11 @@ def _entries(text: str) -> Iterator[tuple[int, str]]:
                 yield int(match[1]), word
 
 
-def decide_label(votes: Iterable[LabelVote], vocabulary: Sequence[str]) -> tuple[str, float] | None:
-    """Return the label with most evidence and its confidence; None where nothing was said, or unknown has most.
-
-    Of equals the first of the vocabulary.
-    """
-    score: dict[str | None, float] = dict.fromkeys((*vocabulary, None), 0.0)
-    for label, weight in votes:
-        score[label] += weight
-    best = max(score, key=lambda label: score[label])
-    if best is None or not score[best]:
-        return None
-    return best, round(score[best] / (sum(score.values()) + _AGAINST), 4)
+def decide_label(votes: Sequence[str | None], vocabulary: Sequence[str]) -> tuple[str, float] | None:
+    """Return the label with most votes and its confidence, of equals the first; None where that is unknown, or none."""
+    count = Counter(votes)
+    best = max((*vocabulary, None), key=count.__getitem__)
+    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if best and count[best] else None
 
 
 def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
@@ -134,19 +123,12 @@ class VlmAnswers:
     failed: tuple[str, ...] = ()
     asked: tuple[str, ...] = ()
 
-    def only(self, wanted: Collection[HullKey]) -> VlmAnswers:
-        """Return what was said of some of the hulls."""
 
-        def keep(asset: str, own: Mapping[str, T]) -> Mapping[str, T]:
-            return {hull: one for hull, one in own.items() if (asset, hull) in wanted}
-
-        labels = {asset: keep(asset, own) for asset, own in self.labels.items()}
-        return replace(self, labels=labels, open={asset: keep(asset, own) for asset, own in self.open.items()})
-
-
-def ask_questions(client: Client, config: PromptConfig, questions: Iterable[HullQuestion]) -> VlmAnswers:
-    """Return what a model says of hulls; what an answer leaves open is asked once more."""
-    votes, why = defaultdict[HullKey, list[LabelVote]](list), dict[HullKey, str]()
+def ask_questions(
+    client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
+) -> VlmAnswers:
+    """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
+    votes, why = defaultdict[HullKey, list[str | None]](list), dict[HullKey, str]()
     failed, asked = dict[str, None](), list[str]()
     for one in questions:
         question, left = one.question, tuple(one.hulls)
@@ -160,7 +142,7 @@ def ask_questions(client: Client, config: PromptConfig, questions: Iterable[Hull
             asked.append(question.digest(client.endpoint))
             answer = read_answer(reply.text, left, config.vocabulary, config.unknown)
             for number, label in answer.labels.items():
-                votes[one.hulls[number]].append((label, one.weights[number]))
+                votes[one.hulls[number]].append(label)
             left = answer.open
             cause = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
             why |= {one.hulls[number]: cause for number in left}
@@ -168,11 +150,11 @@ def ask_questions(client: Client, config: PromptConfig, questions: Iterable[Hull
                 break
             question = ask_again(question, reply, answer)
     labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
-    for (asset, hull), cause in why.items():
+    for asset, hull in why if wanted is None else filter(wanted.__contains__, why):
         if found := decide_label(votes[asset, hull], config.vocabulary):
             labels[asset][hull] = Label(*found, "vlm")
         else:
-            left_open[asset][hull] = NOT_KNOWN if votes[asset, hull] else cause
+            left_open[asset][hull] = NOT_KNOWN if votes[asset, hull] else why[asset, hull]
     return VlmAnswers(dict(labels), dict(left_open), tuple(failed), tuple(asked))
 
 

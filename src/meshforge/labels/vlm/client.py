@@ -23,7 +23,6 @@ _PROBE_RETRIES = 2  # of the first question at most: a server that is not there 
 _NO_MONEY = ("insufficient_quota", "billing_hard_limit", "billing_not_active", "credit balance", "insufficient balance")
 _LONG = 400  # characters of a server's complaint that are shown
 _SHORT = 60  # and of what it sends in place of JSON
-_SCHEMA = "response_format"
 _NO_KEY = "none"  # the SDK wants one even where the server does not
 
 
@@ -74,20 +73,17 @@ class Client:
         return self._limiter.usage
 
     def find_refused(self) -> frozenset[str]:
-        """Return what the server refuses of a request: a first question is asked with everything, and with less as long
-        as it is refused; it also tells how pictures are charged. Raises EndError."""
+        """Return what the server refuses of a request, which a first question finds out; it also tells how pictures are
+        charged. Raises EndError."""
         with self._probing:
-            refused = self._refused or frozenset()
-            while self._refused is None:
+            if self._refused is None:
                 try:
-                    reply = self._send(probe_question(), refused, min(_PROBE_RETRIES, self.endpoint.settings.retries))
-                    self._refused, self.is_blind = refused, "red" not in reply.text.lower()
+                    retries = min(_PROBE_RETRIES, self.endpoint.settings.retries)
+                    reply, self._refused = self._ask_with_less(probe_question(), frozenset(), retries)
                 except QuestionError as error:
-                    more = find_refused(error.problem, refused) if isinstance(error, RefusalError) else None
-                    if more is None:
-                        raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
-                    refused |= {more}
-            return refused
+                    raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
+                self.is_blind = "red" not in reply.text.lower()
+            return self._refused
 
     def find_answer(self, question: VlmQuestion) -> Reply | None:
         """Return the answer that was given earlier, None where there is none; never ask."""
@@ -105,7 +101,7 @@ class Client:
             if known := self.find_answer(question):
                 self._limiter.count(Usage(cached=1))
                 return known
-            reply = self._ask_server(question)
+            reply, _ = self._ask_with_less(question, self.find_refused(), self.endpoint.settings.retries)
             if self._cache:
                 self._cache.write(question, self.endpoint, reply)
             return reply
@@ -117,14 +113,18 @@ class Client:
                 self._sdk.close()
             self._sdk = None
 
-    def _ask_server(self, question: VlmQuestion) -> Reply:
-        refused, retries = self.find_refused(), self.endpoint.settings.retries
-        try:
-            return self._send(question, refused, retries)
-        except RefusalError:  # of all that a server may dislike, a schema can be done without
-            if question.schema is None or _SCHEMA in refused:
-                raise
-            return self._send(question, refused | {_SCHEMA}, retries)
+    def _ask_with_less(
+        self, question: VlmQuestion, refused: frozenset[str], retries: int
+    ) -> tuple[Reply, frozenset[str]]:
+        """Ask with less as long as the request is refused."""
+        while True:
+            try:
+                return self._send(question, refused, retries), refused
+            except RefusalError as error:
+                more = find_refused(error.problem, refused)
+                if more is None:
+                    raise
+                refused |= {more}
 
     def _send(self, question: VlmQuestion, refused: frozenset[str], retries: int) -> Reply:
         """Ask, and count what it costs."""
@@ -152,18 +152,17 @@ class Client:
         options: Any = {"max_retries": retries, "follow_redirects": False}  # nobody approved where a redirect leads
         try:
             found: Any = sdk.post("/chat/completions", cast_to=ChatCompletion, body=body, options=options)
-        except openai.APITimeoutError as error:
-            raise self._give_up(f"no answer within {self.endpoint.settings.timeout:g} seconds") from error
         except openai.APIConnectionError as error:
-            cause = error.__cause__
-            why = self._redact(str(cause)) if cause and str(cause) else "the connection broke"
-            if type(cause).__name__ not in ("ConnectError", "UnsupportedProtocol"):
-                raise self._give_up(why) from error
-            self._attempts.is_lost = False
-            if self._answered:
-                raise self._give_up(why) from error
-            remedy = "Is the server running, and base_url right?"
-            raise EndError(f"the server cannot be reached: {why}", where=self.endpoint.place, remedy=remedy) from error
+            cause, where = error.__cause__, self.endpoint.place
+            why = self._redact(str(cause or "")) or "the connection broke"
+            if isinstance(error, openai.APITimeoutError):
+                why = f"no answer within {self.endpoint.settings.timeout:g} seconds"
+            elif type(cause).__name__ in ("ConnectError", "UnsupportedProtocol"):
+                self._attempts.is_lost = False
+                if not self._answered:
+                    remedy = "Is the server running, and base_url right?"
+                    raise EndError(f"the server cannot be reached: {why}", where=where, remedy=remedy) from error
+            raise self._give_up(why) from error
         except openai.APIStatusError as error:
             self._attempts.is_lost = False
             raise self._explain_status(error) from error

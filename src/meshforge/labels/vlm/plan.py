@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import islice
 
 from meshforge import symbolic
 from meshforge.batch import WorkerFailure, execute
 from meshforge.common import AssetError, UsageError, describe_error
 from meshforge.label_model import choose_exemplars
-from meshforge.labels.family_comparison import FamilyDescription
+from meshforge.labels.family_comparison import FamilyDescription, describe_assets
 from meshforge.labels.labeler import LabelFamily
 from meshforge.labels.vlm.prompt import (
     MOST_COLORS,
@@ -24,7 +25,7 @@ from meshforge.labels.vlm.prompt import (
     example_messages,
 )
 from meshforge.labels.vlm.question import Message
-from meshforge.store import AssetFiles, Store, hull_digests
+from meshforge.store import AssetFiles, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES
 
 _QUESTIONS, _TOGETHER = 7, 3  # about exemplars at most, and assets in each
@@ -33,10 +34,15 @@ _EXAMPLES = 2  # labelled assets that are shown at most, where the settings name
 
 @dataclass(frozen=True, slots=True)
 class QuestionPlan:
-    """What is asked about together. name: of the page that shows it; hulls: by asset, None for all of them."""
+    """What is asked about together. name: of the page that shows it; hulls: by asset, none for all of them."""
 
     name: str
-    hulls: Mapping[str, Sequence[str] | None]
+    hulls: Mapping[str, Sequence[str]]
+
+    @property
+    def first(self) -> str:
+        """The first of the assets."""
+        return next(iter(self.hulls))
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,69 +53,65 @@ class DrawnQuestions:
     """
 
     plan: QuestionPlan
-    assets: Mapping[str, Mapping[str, str]]
+    assets: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     wanted: frozenset[HullKey] = frozenset()
     questions: tuple[HullQuestion, ...] = ()
     error: str | None = None
 
 
-def plan_exemplars(described: FamilyDescription) -> list[QuestionPlan]:
-    """Return questions about a few hulls that all others are like; they do not depend on labels that there are."""
-    hulls = dict[str, list[str]]()
+def plan_questions(family: LabelFamily, config: PromptConfig) -> tuple[FamilyDescription | None, list[QuestionPlan]]:
+    """Return a question for each asset; or those about exemplars, a few hulls that all others are like, and the family
+    in which these were found. Which they are does not depend on labels."""
+    if config.settings.every_hull:
+        return None, [QuestionPlan(asset, {asset: ()}) for asset in family.store.assets()]
+    described, rows = describe_assets(family), list[tuple[str, list[str]]]()
     for mesh, places in choose_exemplars(described.table, _QUESTIONS * _TOGETHER, MOST_COLORS).items():
         asset, begin = described.assets[mesh], described.table.spans[mesh].start
         names = [*described.hulls[asset]]
-        hulls[asset] = [names[place - begin] for place in places]
-    rows = [*hulls.items()]
-    starts = range(0, len(rows), _TOGETHER)
-    return [QuestionPlan(f"exemplars_{k + 1}", dict(rows[at : at + _TOGETHER])) for k, at in enumerate(starts)]
-
-
-def plan_every_hull(store: Store) -> list[QuestionPlan]:
-    """Return a question for each asset."""
-    return [QuestionPlan(asset, {asset: None}) for asset in store.assets()]
+        rows.append((asset, [names[place - begin] for place in places]))
+    groups = (dict(rows[at : at + _TOGETHER]) for at in range(0, len(rows), _TOGETHER))
+    return described, [QuestionPlan(f"exemplars_{k + 1}", group) for k, group in enumerate(groups)]
 
 
 def draw_questions(
     family: LabelFamily, plans: Sequence[QuestionPlan], config: PromptConfig
 ) -> Generator[DrawnQuestions, None, None]:
     """Yield the questions as soon as they are drawn, in their order; some are drawn ahead of the others."""
-    examples = _find_examples(family, config)
+    config = replace(config, examples=_find_examples(family, config))
     items = [(plan, family.store.asset_files([*plan.hulls])) for plan in plans]
-    with closing(execute(partial(_draw, config, examples), items, family.execution)) as work:
+    with closing(execute(partial(_draw, config), items, replace(family.execution, stop=None))) as work:
         for plan, found in zip(plans, work, strict=True):
             if isinstance(found, WorkerFailure):
-                found = DrawnQuestions(plan, {asset: {} for asset in plan.hulls}, error=f"{plan.name}: {found.why}")
+                found = DrawnQuestions(plan, error=f"{family.store.path(plan.first)}: {found.why}")
             yield found
 
 
-def _draw(
-    config: PromptConfig, examples: tuple[Message, ...], item: tuple[QuestionPlan, Sequence[AssetFiles]]
-) -> DrawnQuestions:
+def _draw(config: PromptConfig, item: tuple[QuestionPlan, Sequence[AssetFiles]]) -> DrawnQuestions:
     """Nothing is asked where no hull is wanted; else about all, so that answers can be found again by then."""
     plan, places = item
     try:
         meshes = {asset: place.read_mesh() for asset, place in zip(plan.hulls, places, strict=True)}
-        asked = [AskedMesh(name, mesh, plan.hulls[name] or [*mesh.index]) for name, mesh in meshes.items()]
+        asked = [AskedMesh(asset, mesh, plan.hulls[asset] or [*mesh.index]) for asset, mesh in meshes.items()]
         every = ((one.name, one.mesh.hull_of(hull)) for one in asked for hull in one.hulls)
         wanted = frozenset((asset, hull.name) for asset, hull in every if hull.source not in GIVEN_SOURCES)
         digests = {asset: hull_digests(mesh) for asset, mesh in meshes.items()}
         if not wanted:
             return DrawnQuestions(plan, digests)
-        whole = None in plan.hulls.values()
-        drawn = ask_every_hull(asked[0].name, asked[0].mesh, config) if whole else build_questions(asked, config)
-        return DrawnQuestions(plan, digests, wanted, tuple(one.show_examples(examples) for one in drawn))
+        is_whole = not plan.hulls[plan.first]
+        questions = (
+            ask_every_hull(plan.first, meshes[plan.first], config) if is_whole else build_questions(asked, config)
+        )
+        return DrawnQuestions(plan, digests, wanted, questions)
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return DrawnQuestions(plan, {asset: {} for asset in plan.hulls}, error=describe_error(error, plan.name))
+        return DrawnQuestions(plan, error=describe_error(error, plan.first))
 
 
 def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, ...]:
     """The labelled assets that are shown: those that the settings name, or some of which every hull has a label of a
     person or a file."""
-    store, named = family.store, config.settings.examples
-    assets = named or [asset for asset, _ in zip(_iterate_labelled(family), range(_EXAMPLES), strict=False)]
-    found = list[Message]()
-    for asset in assets:
+    store, found = family.store, list[Message]()
+    labelled = (asset for asset, facts in family.iterate_facts() if _is_labelled(family, asset, facts.hulls))
+    for asset in config.settings.examples or islice(labelled, _EXAMPLES):
         mesh = store.mesh(asset)
         guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
         if len(guessed) == len(mesh.hulls):
@@ -119,11 +121,9 @@ def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, 
     return tuple(found)
 
 
-def _iterate_labelled(family: LabelFamily) -> Iterator[str]:
-    for asset, facts in family.iterate_facts():
-        try:
-            labels = symbolic.match_labels(family.store.labels(asset), facts.hulls).labels
-        except AssetError:  # it is named where it is asked about
-            continue
-        if facts.hulls and all(hull in labels and labels[hull].source in GIVEN_SOURCES for hull in facts.hulls):
-            yield asset
+def _is_labelled(family: LabelFamily, asset: str, hulls: Mapping[str, str]) -> bool:
+    try:
+        labels = symbolic.match_labels(family.store.labels(asset), hulls).labels
+    except AssetError:  # it is named where it is asked about
+        return False
+    return bool(hulls) and all(hull in labels and labels[hull].source in GIVEN_SOURCES for hull in hulls)

@@ -49,17 +49,18 @@ Answer with JSON only, with one entry for each number asked about, no other numb
 
 _BEFORE_TOKENS, _ENTRY_TOKENS = 150, 30  # tokens of an answer: before the labels, and for each hull, at most
 _EXPECTED_TOKENS = 15  # and about as many as a hull takes
-_GLIMPSE = 300.0
-"""Pixels of 1024 x 1024 of a hull from which on a look at it counts more than half."""
-_HIDDEN = 30  # pixels that a hull counts for which no picture shows
 
 
 @dataclass(frozen=True, slots=True)
 class PromptConfig:
-    """How hulls are asked about: the labels, and what the table [vlm] says. Raises UsageError for what does not fit."""
+    """How hulls are asked about: the labels, what the table [vlm] says, and labelled meshes that are shown before.
+
+    Raises UsageError for what does not fit.
+    """
 
     vocabulary: tuple[str, ...]
     settings: VlmSettings
+    examples: tuple[Message, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.vocabulary:
@@ -73,11 +74,6 @@ class PromptConfig:
         """What a model says of a hull that it does not know."""
         return next(word for word in _UNKNOWN if word not in self.vocabulary)
 
-    def words(self, repeat: int) -> Sequence[str]:
-        """Return the labels; each repeat lists them in another order, since the order must not matter."""
-        turn = repeat % len(self.vocabulary)
-        return (*self.vocabulary[turn:], *self.vocabulary[:turn])
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class AskedMesh:
@@ -90,32 +86,25 @@ class AskedMesh:
 
 @dataclass(frozen=True, slots=True)
 class HullQuestion:
-    """A question about some hulls. hulls: by the number they have in it; weights: how well each is seen, in 0..1."""
+    """A question about some hulls. hulls: by the number they have in it."""
 
     question: VlmQuestion
     hulls: Mapping[int, HullKey]
-    weights: Mapping[int, float]
 
     @property
     def expected(self) -> int:
         """About how many tokens the answer has."""
         return _BEFORE_TOKENS // 2 + _EXPECTED_TOKENS * len(self.hulls)
 
-    def show_examples(self, examples: tuple[Message, ...]) -> HullQuestion:
-        """Return the same question with messages that show labelled assets before its own pictures."""
-        instructions, *pictures = self.question.messages
-        return replace(self, question=replace(self.question, messages=(instructions, *examples, *pictures)))
-
 
 def build_questions(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[HullQuestion, ...]:
     """Return the question about hulls of some meshes, once for each repeat."""
-    pictures, hulls, weights = _show_meshes(meshes, config)
-    limit = config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
-    tasks = (_task_message(config, f"+{up_axis(meshes[0].mesh)}", k) for k in range(config.settings.repeats))
-    return tuple(
-        HullQuestion(VlmQuestion((task, pictures), _answer_schema(config, k), limit, repeat=k), hulls, weights)
-        for k, task in enumerate(tasks)
+    pictures, hulls = _show_meshes(meshes, config)
+    messages = _task_message(config, f"+{up_axis(meshes[0].mesh)}"), *config.examples, pictures
+    question = VlmQuestion(
+        messages, _answer_schema(config), config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
     )
+    return tuple(HullQuestion(replace(question, repeat=k), hulls) for k in range(config.settings.repeats))
 
 
 def ask_every_hull(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[HullQuestion, ...]:
@@ -135,17 +124,15 @@ def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tup
     if not few:
         return ()
     shown = [hull for hull in mesh.index if hull in few]
-    pictures, hulls, _ = _show_meshes([AskedMesh(name, mesh, shown)], config)
+    pictures, hulls = _show_meshes([AskedMesh(name, mesh, shown)], config)
     rows = [{"number": number, "label": mesh.hull_of(hull).label} for number, (_, hull) in hulls.items()]
     answer = {"object": config.settings.about or "one of these objects", "parts": sorted(count), "hulls": rows}
     return pictures, Message.assistant(json.dumps(answer, ensure_ascii=False))
 
 
-def _show_meshes(
-    meshes: Sequence[AskedMesh], config: PromptConfig
-) -> tuple[Message, dict[int, HullKey], dict[int, float]]:
-    """The pictures and lines of text of some hulls; the hulls by number, and how well each is seen."""
-    parts, hulls, weights = list[Part](), dict[int, HullKey](), dict[int, float]()
+def _show_meshes(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[Message, dict[int, HullKey]]:
+    """The pictures and lines of text of some hulls; and the hulls by number."""
+    parts, hulls = list[Part](), dict[int, HullKey]()
     for place, asked in enumerate(meshes):
         index, begin = asked.mesh.index, len(hulls)
         numbers = {hull: begin + k if len(meshes) > 1 else index[hull] for k, hull in enumerate(asked.hulls)}
@@ -157,17 +144,8 @@ def _show_meshes(
             beside = "; beside it the object as it looks" if k == 0 else ""
             parts += [f"Picture: {shot.name}{beside}.", encode_png(shot.marked if k else _join(shot))]
         parts.append("\n".join(_describe_hulls(asked.mesh, numbers, names=config.settings.names)))
-        for hull, number in numbers.items():
-            pixels = sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered)
-            weights[number] = round(clearness(max(pixels, _HIDDEN), config.settings.size), 4)
     parts.append(f"Which part does each of these pieces belong to: {', '.join(map(str, hulls))}?")
-    return Message.user(*parts), hulls, weights
-
-
-def clearness(pixels: int, size: int) -> float:
-    """Return how well a hull is seen of which so many pixels show in pictures of `size` x `size`, in 0..1."""
-    full = pixels * (1024 / size) ** 2
-    return full / (full + _GLIMPSE)
+    return Message.user(*parts), hulls
 
 
 def _draw(asked: AskedMesh, numbers: Mapping[str, int], size: int) -> Iterator[LabelingPicture]:
@@ -208,17 +186,17 @@ def _split(hulls: Sequence[str], most: int) -> list[Sequence[str]]:
     return [hulls[k * len(hulls) // count : (k + 1) * len(hulls) // count] for k in range(count)]
 
 
-def _task_message(config: PromptConfig, up: str, repeat: int) -> Message:
-    words, known, about = config.words(repeat), config.settings.descriptions, config.settings.about
+def _task_message(config: PromptConfig, up: str) -> Message:
+    words, known, about = config.vocabulary, config.settings.descriptions, config.settings.about
     labels = [f"- {word}: {_to_line(known[word])}" if word in known else f"- {word}" for word in words]
     about = f". The objects are: {_to_line(about)}" if about else ""
     text = _TASK.format(labels="\n".join(labels), unknown=config.unknown, up=up, about=about, example=words[0])
     return Message.system(text)
 
 
-def _answer_schema(config: PromptConfig, repeat: int) -> dict[str, Any]:
+def _answer_schema(config: PromptConfig) -> dict[str, Any]:
     """What the object is and its parts come first, so that the labels follow from them."""
-    label = {"type": "string", "enum": [*config.words(repeat), config.unknown]}
+    label = {"type": "string", "enum": [*config.vocabulary, config.unknown]}
     row = _object_schema(number={"type": "integer"}, label=label)
     parts = {"type": "array", "items": {"type": "string"}}
     return _object_schema(object={"type": "string"}, parts=parts, hulls={"type": "array", "items": row})
