@@ -74,7 +74,7 @@ def _print_end(project: Project, labeler: VlmLabeler, *, json: bool) -> None:
         return
     typer.echo(_describe_usage(found.usage))
     if found.usage.answered + found.usage.cached:
-        typer.echo(f"what was sent and what came back: {project.layout.vlm / 'pages'}")
+        typer.echo(f"what was sent and what came back: {project.layout.vlm}")
     if found.blind:
         remark("The model took a red picture for another one: it may not see pictures at all.")
     if found.ended:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.lookalikes import MOST_MESHES
 from meshforge.label_model.table import FamilyTable
-from meshforge.label_model.ties import EQUAL, first_greatest, pick_evenly
+from meshforge.label_model.ties import first_greatest, pick_evenly
 
 Bools = npt.NDArray[np.bool_]
 
@@ -88,44 +88,36 @@ def _least(table: FamilyTable, hulls: Ints, to: Ints) -> Floats:
 
 
 def choose_exemplars(table: FamilyTable, meshes: int, hulls: int) -> dict[int, list[int]]:
-    """Return places in the table of hulls that show as many clusters of hulls as possible, by their mesh.
+    """Return places of hulls that show as many clusters of hulls as possible, by mesh, those that show most first.
 
-    meshes: at most so many, those that show most hulls' clusters first; hulls: at most so many of a mesh. Of very many
-    meshes some are looked at, those that always are when labels are propagated. Labels do not matter.
+    meshes, hulls: at most so many meshes, and hulls of each. Of very many meshes those are looked at that always
+    are when labels are propagated. Labels do not matter.
     """
     looked = np.flatnonzero(np.isin(table.owner, pick_evenly(np.unique(table.owner), MOST_MESHES)))
-    if not len(looked):
-        return {}
-    apart = _find_clusters(table.rows[looked] * table.metric)
-    owner, cluster = table.owner[looked], apart.argmin(axis=1)
-    size = np.bincount(cluster, minlength=apart.shape[1])
-    shows = np.zeros((int(owner.max()) + 1, len(size)), dtype=np.bool_)
+    apart = _measure_clusters(table.rows[looked] * table.metric)
+    owner, cluster, found = table.owner[looked], apart.argmin(axis=1), dict[int, list[int]]()
+    left = np.bincount(cluster, minlength=apart.shape[1])
+    shows = np.zeros((int(owner.max(initial=0)) + 1, len(left)), dtype=np.bool_)
     shows[owner, cluster] = True
-    left, found = size.astype(float), dict[int, list[int]]()
     while (shows & (left > 0)).any() and len(found) < meshes:
         mesh = int(first_greatest((shows * np.sqrt(left)).sum(axis=1)))
-        seen = [one for one in np.argsort(-left, kind="stable").tolist() if shows[mesh, one] and left[one]][:hulls]
-        members = [np.flatnonzero((owner == mesh) & (cluster == one)) for one in seen]
-        nearest = [int(own[first_greatest(-apart[own, one])]) for own, one in zip(members, seen, strict=True)]
-        found[mesh] = sorted(int(looked[place]) for place in nearest)
-        left[seen] = 0
-        shows[mesh] = False
+        shown = [one for one in np.argsort(-left, kind="stable").tolist() if shows[mesh, one] and left[one]][:hulls]
+        members = (np.flatnonzero((owner == mesh) & (cluster == one)) for one in shown)
+        nearest = [own[first_greatest(-apart[own, one])] for own, one in zip(members, shown, strict=True)]
+        found[mesh] = sorted(looked[nearest].tolist())
+        left[shown], shows[mesh] = 0, False
     return found
 
 
-def _find_clusters(rows: Floats) -> Floats:
-    """The distances (n, clusters) of hulls to the centres of clusters: the first is that which is nearest the middle,
-    each further one the hull that is farthest from those before (farthest-first traversal, Gonzalez 1985)."""
-    from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
+def _measure_clusters(rows: Floats) -> Floats:
+    """The distances (n, clusters) of hulls to the centres of clusters, each the hull that is farthest from those before
+    (farthest-first traversal, Gonzalez 1985); the first is the one that is nearest the middle."""
+    from scipy.spatial.distance import cdist  # lazy: as above
 
-    def measure(center: Ints | int) -> Floats:
-        found: Floats = cdist(rows, rows[center][None], "cityblock")[:, 0]
-        return found
-
-    middle = np.abs(rows - np.median(rows, axis=0)).sum(axis=1)
-    columns = [measure(int(first_greatest(-middle)))]
-    least = columns[0]
-    while len(columns) < min(_MOST_CLUSTERS, len(rows)) and least.max() > RADIUS + EQUAL:
-        columns.append(measure(int(first_greatest(least))))
-        least = np.minimum(least, columns[-1])
-    return np.stack(columns, axis=1)
+    found = np.zeros((len(rows), 0))
+    farness = -np.abs(rows - np.median(rows, axis=0)).sum(axis=1) if len(rows) else np.zeros(0)
+    while found.shape[1] < min(_MOST_CLUSTERS, len(rows)) and not (found.size and farness.max() <= RADIUS):
+        center = rows[[int(first_greatest(farness))]]
+        found = np.concatenate([found, cdist(rows, center, "cityblock")], axis=1)
+        farness = found.min(axis=1)
+    return found

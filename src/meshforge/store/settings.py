@@ -22,8 +22,6 @@ Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Fraction = Annotated[float, Field(gt=0, le=1)]
 TomlValue = str | float | Sequence[str]
 
-NO_MODE = "there is no mode any more: exemplars are asked about, or every hull with every_hull = true (--every-hull)"
-
 
 class VlmSettings(BaseModel):
     """The table [vlm]: which model is asked, and how. The key is never written here.
@@ -64,7 +62,7 @@ class VlmSettings(BaseModel):
     @classmethod
     def _refuse_mode(cls, given: Any) -> Any:
         if isinstance(given, dict) and "mode" in given:
-            raise ValueError(NO_MODE)
+            raise ValueError("there is no mode now: every_hull = true (--every-hull) asks about all, else exemplars")
         return given
 
 

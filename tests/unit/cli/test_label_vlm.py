@@ -68,7 +68,7 @@ def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, serve
         f"5 answers; {server.usage['input']:,} tokens in, {server.usage['output']:,} out; ${price:.4f}"
     )
     assert lines[-1].startswith("what was sent and what came back: ")
-    assert (Path(lines[-1].partition(": ")[2]) / "t002.obj.html").is_file()
+    assert len([*(Path(lines[-1].partition(": ")[2]) / "answers").iterdir()]) == 4
     again = run("label", "p", "--with", "vlm")
     assert "t000.obj: 0 labels taken, 6 there already\n" in again.out
     assert "0 answers, 4 more from earlier; 0 tokens in, 0 out; $0.0000\n" in again.out
@@ -133,7 +133,7 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
         (("--labels", "x"), "--labels is for --with file"),
-        (("--mode", "exact"), "every hull with every_hull = true (--every-hull)"),
+        (("--mode", "exact"), "there is no mode now: every_hull = true (--every-hull) asks about all"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

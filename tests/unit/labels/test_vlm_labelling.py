@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels.vlm import plan, prompt
+from meshforge.labels.vlm import plan
+from meshforge.labels.vlm.prompt import AskedMesh, HullQuestion, PromptConfig, build_questions
 from meshforge.project import Project
-from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, Label
 from tests.examples import examples
 from tests.loopback import FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
 from tests.unit.batch.families import label_of
@@ -376,7 +377,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('modell = "x"', "there is no such field as vlm.modell"),
-        ('mode = "cheap"', "the field vlm: there is no mode any more"),
+        ('mode = "cheap"', "the field vlm: there is no mode now: every_hull = true"),
         ("concurrency = 0", "the field vlm.concurrency"),
         ("input_price = -1", "the field vlm.input_price"),
         ("size = 3", "the field vlm.size"),
@@ -445,36 +446,17 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
     assert [report.taken for report in found.outcomes] == [6, 6]
 
 
-def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-
-    def answer(asked: Asked) -> str:
-        return labels_as_json({0: "<b>leg</b>"}) if not asked.is_again else labels_as_json({1: "leg"})
-
-    with serving(answer) as server:
-        label_with_vlm(project, settings(server))
-    page = project.layout.vlm / "pages" / "t000.obj.html"
-    text = page.read_text()
-    assert "&lt;b&gt;leg&lt;/b&gt;" in text and "<b>" not in text
-    assert text.count("<h2>Question") == 2
-    pictures = [line.partition('"')[0] for line in text.split('<img src="')[1:]]
-    assert len(pictures) >= 4
-    assert all((page.parent / picture).is_file() for picture in pictures)
-    assert "none: the model said nothing usable of it" in text
-
-
 def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = family(tmp_path, 3)
-    real = plan.ask_every_hull
 
-    def draw(name: str, mesh: SymbolicMesh, config: prompt.PromptConfig) -> tuple[prompt.HullQuestion, ...]:
-        if name == "t001.obj":
+    def draw(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[HullQuestion, ...]:
+        if meshes[0].name == "t001.obj":
             raise ZeroDivisionError("no room for the picture")
-        return real(name, mesh, config)
+        return build_questions(meshes, config)
 
-    monkeypatch.setattr(plan, "ask_every_hull", draw)
+    monkeypatch.setattr(plan, "build_questions", draw)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = label_with_vlm(project, settings(server))

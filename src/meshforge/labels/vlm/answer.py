@@ -8,11 +8,8 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from importlib.resources import files
-from pathlib import Path
-from typing import Any
 
-from meshforge.common import join_names, relative_name, write_atomically
+from meshforge.common import join_names
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import QuestionError
 from meshforge.labels.vlm.prompt import HullKey, HullQuestion, PromptConfig
@@ -114,14 +111,12 @@ def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQue
 class VlmAnswers:
     """What a model said of hulls. labels: by asset and hull; open: why others that were asked about have none.
 
-    failed: complaints about questions that got no answer, in their order, each once; asked: the digests of all
-    questions that got one.
+    failed: complaints about questions that got no answer, in their order, each once.
     """
 
     labels: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
     open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     failed: tuple[str, ...] = ()
-    asked: tuple[str, ...] = ()
 
 
 def ask_questions(
@@ -129,7 +124,7 @@ def ask_questions(
 ) -> VlmAnswers:
     """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
     votes, why = defaultdict[HullKey, list[str | None]](list), dict[HullKey, str]()
-    failed, asked = dict[str, None](), list[str]()
+    failed = dict[str, None]()
     for one in questions:
         question, left = one.question, tuple(one.hulls)
         why = {one.hulls[number]: _UNANSWERED for number in left} | why
@@ -139,7 +134,6 @@ def ask_questions(
             except QuestionError as error:
                 failed[error.sentence] = None
                 break
-            asked.append(question.digest(client.endpoint))
             answer = read_answer(reply.text, left, config.vocabulary, config.unknown)
             for number, label in answer.labels.items():
                 votes[one.hulls[number]].append(label)
@@ -155,24 +149,4 @@ def ask_questions(
             labels[asset][hull] = Label(*found, "vlm")
         else:
             left_open[asset][hull] = NOT_KNOWN if votes[asset, hull] else why[asset, hull]
-    return VlmAnswers(dict(labels), dict(left_open), tuple(failed), tuple(asked))
-
-
-def write_page(folder: Path, name: str, answers: VlmAnswers) -> None:
-    """Write `pages/NAME.html` into a folder of answers; name: of what was asked about, maybe with folders."""
-    from jinja2 import Environment, StrictUndefined  # lazy: 0.05 s, only answers of a model need it
-
-    path = folder / "pages" / f"{name}.html"
-    kept = [_read_kept(folder / "answers" / f"{digest}.json") for digest in answers.asked]
-    source = (files("meshforge.labels.vlm") / "page.html.j2").read_text("utf-8")
-    template = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True).from_string(source)
-    pictures = relative_name(folder / "pictures", path.parent)
-    write_atomically(path, template.render(name=name, answers=answers, kept=kept, pictures=pictures))
-
-
-def _read_kept(file: Path) -> Any:
-    """A question with its answer, None where it cannot be read."""
-    try:
-        return json.loads(file.read_bytes())
-    except (OSError, ValueError):
-        return None
+    return VlmAnswers(dict(labels), dict(left_open), tuple(failed))

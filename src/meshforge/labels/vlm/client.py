@@ -26,22 +26,13 @@ _SHORT = 60  # and of what it sends in place of JSON
 _NO_KEY = "none"  # the SDK wants one even where the server does not
 
 
-class _Attempts(threading.local):
-    """The attempts at the question that a thread asks. count: so far; bound: what one costs at most [$]; is_open:
-    whether the last is under way, and is_lost: whether it may have been charged for though no answer came."""
-
-    count = 0
-    bound = 0.0
-    is_open = False
-    is_lost = False
-
-
 class Client:
     """Asks a model. Safe to use from several threads.
 
     folder: where answers are kept, None for nowhere; max_cost: the most that may be spent [$]; stop: whether to ask no
     more. end: why no further question is asked, None as long as asking goes on; is_blind: the model took a red picture
-    for another one. Raises UsageError for a limit on the cost without prices.
+    for another one; refused: what the server does not take of a request. Raises UsageError for a limit on the cost
+    without prices.
     """
 
     def __init__(
@@ -55,16 +46,18 @@ class Client:
         self.endpoint = endpoint
         self.end: EndError | None = None
         self.is_blind = False
+        self.refused = frozenset[str]()
         self._key = ""
         self._cache = AnswerCache(folder) if folder else None
         self._limiter = CostLimiter(endpoint, max_cost)
         self._stop = stop
         self._sdk: OpenAI | None = None
         self._probing = threading.Lock()
-        self._refused: frozenset[str] | None = None
         self._lock = threading.Lock()
         self._turns = defaultdict[str, threading.Lock](threading.Lock)
-        self._attempts = _Attempts()
+        self._attempts: Any = threading.local()
+        """Those at the question that a thread asks. count: so far; bound: what one costs at most [$]; is_open: whether
+        the last is under way, and is_lost: whether it may have been charged for though no answer came."""
         self._unanswered, self._answered = 0, False
 
     @property
@@ -72,18 +65,16 @@ class Client:
         """What was asked so far, and its cost."""
         return self._limiter.usage
 
-    def find_refused(self) -> frozenset[str]:
-        """Return what the server refuses of a request, which a first question finds out; it also tells how pictures are
-        charged. Raises EndError."""
+    def probe(self) -> None:
+        """Ask a first question, if none was asked: what the server refuses of it is left out of others, and it tells
+        how pictures are charged. Raises EndError."""
         with self._probing:
-            if self._refused is None:
+            if not self._answered:
                 try:
                     retries = min(_PROBE_RETRIES, self.endpoint.settings.retries)
-                    reply, self._refused = self._ask_with_less(probe_question(), frozenset(), retries)
+                    self.is_blind = "red" not in self._ask_with_less(probe_question(), retries).text.lower()
                 except QuestionError as error:
                     raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
-                self.is_blind = "red" not in reply.text.lower()
-            return self._refused
 
     def find_answer(self, question: VlmQuestion) -> Reply | None:
         """Return the answer that was given earlier, None where there is none; never ask."""
@@ -101,37 +92,37 @@ class Client:
             if known := self.find_answer(question):
                 self._limiter.count(Usage(cached=1))
                 return known
-            reply, _ = self._ask_with_less(question, self.find_refused(), self.endpoint.settings.retries)
+            self.probe()
+            reply = self._ask_with_less(question, self.endpoint.settings.retries)
             if self._cache:
                 self._cache.write(question, self.endpoint, reply)
             return reply
 
     def close(self) -> None:
-        """Close the connections; the server can be asked on."""
-        with self._lock:
-            if self._sdk:
-                self._sdk.close()
-            self._sdk = None
+        """Close the connections."""
+        if self._sdk:
+            self._sdk.close()
 
-    def _ask_with_less(
-        self, question: VlmQuestion, refused: frozenset[str], retries: int
-    ) -> tuple[Reply, frozenset[str]]:
+    def _ask_with_less(self, question: VlmQuestion, retries: int) -> Reply:
         """Ask with less as long as the request is refused."""
+        refused = self.refused
         while True:
             try:
-                return self._send(question, refused, retries), refused
+                reply = self._send(build_body(question, self.endpoint, refused), question, retries)
+                self.refused = refused
+                return reply
             except RefusalError as error:
                 more = find_refused(error.problem, refused)
                 if more is None:
                     raise
                 refused |= {more}
 
-    def _send(self, question: VlmQuestion, refused: frozenset[str], retries: int) -> Reply:
+    def _send(self, body: dict[str, Any], question: VlmQuestion, retries: int) -> Reply:
         """Ask, and count what it costs."""
         mine = self._attempts
-        mine.count, mine.bound = 0, self._limiter.upper_bound(question)
+        mine.count, mine.bound, mine.is_open, mine.is_lost = 0, self._limiter.upper_bound(question), False, False
         try:
-            found = self._complete(build_body(question, self.endpoint, refused), retries)
+            found = self._complete(body, retries)
             mine.is_lost = False
             usage, cost = self._limiter.charge(question, _read_usage(found))
             reply = replace(self._read_reply(found), usage=usage, cost=cost)
@@ -276,19 +267,18 @@ class Client:
 
 
 def _read_usage(found: Any) -> TokenCount | None:
-    try:
-        usage = found.usage
-        given, made = usage.prompt_tokens, usage.completion_tokens
-        made = usage.total_tokens - given if made is None else made
-        return TokenCount(given, made) if min(given, made) >= 0 else None
-    except (AttributeError, TypeError):
-        return None
+    usage = getattr(found, "usage", None)
+    counts = [getattr(usage, name, None) for name in ("prompt_tokens", "completion_tokens")]
+    known = [count for count in counts if isinstance(count, int) and count >= 0]
+    return TokenCount(known[0], known[1]) if len(known) == 2 else None
 
 
 def _error_text(error: APIStatusError) -> str:
     """What the server complains about, in one line, with its code."""
-    body = error.body if isinstance(error.body, dict) else {}
-    text = str(body.get("message") or body.get("detail") or error.message)
-    kind = error.code or error.type
+    body: Any = error.body
+    if isinstance(body, list) and body and isinstance(body[0], dict):
+        body = body[0].get("error", body[0])
+    fields = body if isinstance(body, dict) else {"message": body}
+    text, kind = str(fields.get("message") or fields.get("detail") or error.message), fields.get("code", error.type)
     words = " ".join(f"{text} ({kind})".split() if kind and str(kind) not in text else text.split())
     return words if len(words) <= _LONG else f"{words[:_LONG]} ..."

@@ -13,7 +13,7 @@ from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.label_model import reference_label
 from meshforge.labels.family_comparison import FamilyDescription, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
-from meshforge.labels.vlm.answer import NOT_KNOWN, VlmAnswers, ask_questions, write_page
+from meshforge.labels.vlm.answer import NOT_KNOWN, VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
@@ -80,33 +80,34 @@ class VlmLabeler(Labeler):
         described, plans = plan_questions(family, config)
         lost, hulls = (dict(described.lost), dict(described.hulls)) if described else ({}, {})
         labels, left = dict[str, Mapping[str, Label]](), dict[str, Mapping[str, str]]()
-        problems, done = dict[str, list[str]](), 0
+        problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
         client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
         with closing(client), family.stage(len(plans), "asking") as advance:
             for drawn, said in _ask(client, family, config, draw_questions(family, plans, config)):
                 hulls |= drawn.assets
                 labels |= said.labels
                 left |= said.open
-                lost |= dict.fromkeys(drawn.plan.hulls, drawn.error) if drawn.error else {}
-                problems[drawn.plan.first] = [*said.failed]
+                lost |= dict.fromkeys(drawn.plan, drawn.error) if drawn.error else {}
+                problems[next(iter(drawn.plan))] = said.failed
+                reached |= {*drawn.plan} if said.labels or not said.failed else set()
                 done += 1
                 advance()
         end = client.end
         if end and not client.usage.answered + client.usage.cached:
             raise end
         is_whole = not end and done == len(plans)
-        reached = store.assets() if is_whole else [a for a in store.assets() if a in lost or labels.get(a)]
         ended = None if is_whole else end.message if end else "stopped"
-        unasked = tuple(asset for asset in store.assets() if asset not in reached)
+        unasked = () if is_whole else tuple(asset for asset in store.assets() if asset not in reached)
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
         shares = _propagate(family, described, labels, left, config.unknown) if described and is_whole else {}
-        for asset in reached:
+        for asset in (asset for asset in store.assets() if is_whole or asset in reached):
             if asset in lost:
                 yield AssetLabels(asset, error=lost[asset])
                 continue
-            given, bare = {**shares.get(asset, {}), **labels.get(asset, {})}, dict(left.get(asset, {}))
-            bare |= {h: _LIKE_UNKNOWN for h, one in given.items() if one.name == config.unknown and h not in bare}
-            given = {hull: label for hull, label in given.items() if hull not in bare}
+            given, known = {**shares.get(asset, {}), **labels.get(asset, {})}, described.current if described else {}
+            bare = {hull: _LIKE_UNKNOWN for hull, label in given.items() if label.name == config.unknown}
+            bare = {h: why for h, why in {**bare, **left.get(asset, {})}.items() if h not in known.get(asset, {})}
+            given = {hull: one for hull, one in given.items() if hull not in bare and one.name != config.unknown}
             reasons = {hull: ("model" if label.source == "vlm" else "likeness", hull) for hull, label in given.items()}
             failed = [problem for problem in problems.get(asset, ()) if not end or problem != end.sentence]
             yield AssetLabels(asset, hulls[asset], given, reasons, failed, open=bare)
@@ -125,10 +126,7 @@ def _ask(
         while not future.done():
             stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
             wait([future], timeout=0.1)
-        said = future.result()
-        if said.asked:
-            write_page(family.store.layout.vlm, drawn.plan.name, said)
-        return drawn, said
+        return drawn, future.result()
 
     try:
         with closing(questions):
@@ -215,7 +213,7 @@ def forecast_vlm(
     found.unreadable = tuple(described.lost) if described else ()
     with closing(draw_questions(family, plans, config)) as drawn:
         while not stop() and (one := next(drawn, None)):
-            found.unreadable += (*one.plan.hulls,) if one.error else ()  # `VlmLabeler` says then what is wrong
+            found.unreadable += (*one.plan,) if one.error else ()  # `VlmLabeler` says then what is wrong
             found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
             found.questions += len(one.questions)
@@ -223,8 +221,8 @@ def forecast_vlm(
             found.known += len(one.questions) - len(fresh)
             found.pictures += sum(len(asked.question.digests) for asked in fresh)
             found.input += sum(estimate_tokens(asked.question) for asked in fresh)
-            found.output += sum(asked.expected for asked in fresh)
-            for _ in one.plan.hulls:
+            found.output += sum((asked.question.limit - settings.room) // 2 for asked in fresh)
+            for _ in one.plan:
                 progress()
     if endpoint.is_priced:
         found.cost = endpoint.price(TokenCount(found.input, found.output))

@@ -20,29 +20,19 @@ from meshforge.labels.vlm.prompt import (
     HullKey,
     HullQuestion,
     PromptConfig,
-    ask_every_hull,
     build_questions,
     example_messages,
 )
 from meshforge.labels.vlm.question import Message
-from meshforge.store import AssetFiles, hull_digests
+from meshforge.store import AssetFiles, Store, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES
 
 _QUESTIONS, _TOGETHER = 7, 3  # about exemplars at most, and assets in each
 _EXAMPLES = 2  # labelled assets that are shown at most, where the settings name none
 
 
-@dataclass(frozen=True, slots=True)
-class QuestionPlan:
-    """What is asked about together. name: of the page that shows it; hulls: by asset, none for all of them."""
-
-    name: str
-    hulls: Mapping[str, Sequence[str]]
-
-    @property
-    def first(self) -> str:
-        """The first of the assets."""
-        return next(iter(self.hulls))
+QuestionPlan = Mapping[str, Sequence[str]]
+"""Hulls that are asked about together, by asset; none for all of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +53,14 @@ def plan_questions(family: LabelFamily, config: PromptConfig) -> tuple[FamilyDes
     """Return a question for each asset; or those about exemplars, a few hulls that all others are like, and the family
     in which these were found. Which they are does not depend on labels."""
     if config.settings.every_hull:
-        return None, [QuestionPlan(asset, {asset: ()}) for asset in family.store.assets()]
+        return None, [{asset: ()} for asset in family.store.assets()]
     described, rows = describe_assets(family), list[tuple[str, list[str]]]()
     for mesh, places in choose_exemplars(described.table, _QUESTIONS * _TOGETHER, MOST_COLORS).items():
         asset, begin = described.assets[mesh], described.table.spans[mesh].start
         names = [*described.hulls[asset]]
         rows.append((asset, [names[place - begin] for place in places]))
-    groups = (dict(rows[at : at + _TOGETHER]) for at in range(0, len(rows), _TOGETHER))
-    return described, [QuestionPlan(f"exemplars_{k + 1}", group) for k, group in enumerate(groups)]
+    starts = range(0, len(rows), _TOGETHER)
+    return described, [dict(rows[at : at + _TOGETHER]) for at in starts]
 
 
 def draw_questions(
@@ -78,11 +68,11 @@ def draw_questions(
 ) -> Generator[DrawnQuestions, None, None]:
     """Yield the questions as soon as they are drawn, in their order; some are drawn ahead of the others."""
     config = replace(config, examples=_find_examples(family, config))
-    items = [(plan, family.store.asset_files([*plan.hulls])) for plan in plans]
+    items = [(plan, family.store.asset_files([*plan])) for plan in plans]
     with closing(execute(partial(_draw, config), items, replace(family.execution, stop=None))) as work:
         for plan, found in zip(plans, work, strict=True):
             if isinstance(found, WorkerFailure):
-                found = DrawnQuestions(plan, error=f"{family.store.path(plan.first)}: {found.why}")
+                found = DrawnQuestions(plan, error=f"{', '.join(plan)}: {found.why}")
             yield found
 
 
@@ -90,27 +80,23 @@ def _draw(config: PromptConfig, item: tuple[QuestionPlan, Sequence[AssetFiles]])
     """Nothing is asked where no hull is wanted; else about all, so that answers can be found again by then."""
     plan, places = item
     try:
-        meshes = {asset: place.read_mesh() for asset, place in zip(plan.hulls, places, strict=True)}
-        asked = [AskedMesh(asset, mesh, plan.hulls[asset] or [*mesh.index]) for asset, mesh in meshes.items()]
+        meshes = {asset: place.read_mesh() for asset, place in zip(plan, places, strict=True)}
+        asked = [AskedMesh(asset, mesh, plan[asset] or [*mesh.index]) for asset, mesh in meshes.items()]
         every = ((one.name, one.mesh.hull_of(hull)) for one in asked for hull in one.hulls)
         wanted = frozenset((asset, hull.name) for asset, hull in every if hull.source not in GIVEN_SOURCES)
         digests = {asset: hull_digests(mesh) for asset, mesh in meshes.items()}
         if not wanted:
             return DrawnQuestions(plan, digests)
-        is_whole = not plan.hulls[plan.first]
-        questions = (
-            ask_every_hull(plan.first, meshes[plan.first], config) if is_whole else build_questions(asked, config)
-        )
-        return DrawnQuestions(plan, digests, wanted, questions)
+        return DrawnQuestions(plan, digests, wanted, build_questions(asked, config))
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return DrawnQuestions(plan, error=describe_error(error, plan.first))
+        return DrawnQuestions(plan, error=describe_error(error, ", ".join(plan)))
 
 
 def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, ...]:
     """The labelled assets that are shown: those that the settings name, or some of which every hull has a label of a
     person or a file."""
     store, found = family.store, list[Message]()
-    labelled = (asset for asset, facts in family.iterate_facts() if _is_labelled(family, asset, facts.hulls))
+    labelled = (asset for asset, facts in family.iterate_facts() if _is_labelled(store, asset, facts.hulls))
     for asset in config.settings.examples or islice(labelled, _EXAMPLES):
         mesh = store.mesh(asset)
         guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
@@ -121,9 +107,9 @@ def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, 
     return tuple(found)
 
 
-def _is_labelled(family: LabelFamily, asset: str, hulls: Mapping[str, str]) -> bool:
+def _is_labelled(store: Store, asset: str, hulls: Mapping[str, str]) -> bool:
     try:
-        labels = symbolic.match_labels(family.store.labels(asset), hulls).labels
+        labels = symbolic.match_labels(store.labels(asset), hulls).labels
     except AssetError:  # it is named where it is asked about
         return False
     return bool(hulls) and all(hull in labels and labels[hull].source in GIVEN_SOURCES for hull in hulls)

@@ -48,7 +48,6 @@ Answer with JSON only, with one entry for each number asked about, no other numb
 {{"object": "what it is", "parts": ["its parts", ...], "hulls": [{{"number": 3, "label": "{example}"}}, ...]}}"""
 
 _BEFORE_TOKENS, _ENTRY_TOKENS = 150, 30  # tokens of an answer: before the labels, and for each hull, at most
-_EXPECTED_TOKENS = 15  # and about as many as a hull takes
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,26 +90,18 @@ class HullQuestion:
     question: VlmQuestion
     hulls: Mapping[int, HullKey]
 
-    @property
-    def expected(self) -> int:
-        """About how many tokens the answer has."""
-        return _BEFORE_TOKENS // 2 + _EXPECTED_TOKENS * len(self.hulls)
-
 
 def build_questions(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[HullQuestion, ...]:
-    """Return the question about hulls of some meshes, once for each repeat."""
+    """Return the question about hulls of some meshes, once for each repeat; of one with very many hulls several."""
+    first, *more = meshes
+    if not more and len(first.hulls) > _MOST_HULLS:
+        groups = (replace(first, hulls=hulls) for hulls in _split(first.hulls, _MOST_HULLS))
+        return tuple(one for group in groups for one in build_questions([group], config))
     pictures, hulls = _show_meshes(meshes, config)
-    messages = _task_message(config, f"+{up_axis(meshes[0].mesh)}"), *config.examples, pictures
-    question = VlmQuestion(
-        messages, _answer_schema(config), config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
-    )
+    messages = _task_message(config, f"+{up_axis(first.mesh)}"), *config.examples, pictures
+    limit = config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
+    question = VlmQuestion(messages, _answer_schema(config), limit)
     return tuple(HullQuestion(replace(question, repeat=k), hulls) for k in range(config.settings.repeats))
-
-
-def ask_every_hull(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[HullQuestion, ...]:
-    """Return the question about all hulls of a mesh, or the questions where one could not hold them."""
-    groups = _split([*mesh.index], _MOST_HULLS)
-    return tuple(one for group in groups for one in build_questions([AskedMesh(name, mesh, group)], config))
 
 
 def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
@@ -139,18 +130,15 @@ def _show_meshes(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[Mes
         hulls |= {number: (asked.name, hull) for hull, number in numbers.items()}
         what = f"object {place + 1}" if len(meshes) > 1 else "the object"
         parts.append(f"This is {what}{f', {asked.name!r}' if config.settings.names else ''}.")
-        shots = list(_draw(asked, numbers, config.settings.size))
+        groups, size = _split(asked.hulls, MOST_COLORS), config.settings.size
+        rows = ({hull: numbers[hull] for hull in group} for group in groups)
+        shots = [s for own in rows for s in draw_labeling_pictures(asked.mesh, hulls=own, most=_VIEWS, size=size)]
         for k, shot in enumerate(shots):
             beside = "; beside it the object as it looks" if k == 0 else ""
             parts += [f"Picture: {shot.name}{beside}.", encode_png(shot.marked if k else _join(shot))]
         parts.append("\n".join(_describe_hulls(asked.mesh, numbers, names=config.settings.names)))
     parts.append(f"Which part does each of these pieces belong to: {', '.join(map(str, hulls))}?")
     return Message.user(*parts), hulls
-
-
-def _draw(asked: AskedMesh, numbers: Mapping[str, int], size: int) -> Iterator[LabelingPicture]:
-    for group in _split(asked.hulls, MOST_COLORS):
-        yield from draw_labeling_pictures(asked.mesh, hulls=group, most=_VIEWS, size=size, numbers=numbers)
 
 
 def _join(shot: LabelingPicture) -> Image:

@@ -100,13 +100,9 @@ class LabelingCanvas:
         share = 0.0265 if count <= 45 else 0.0225 if count <= 90 else 0.019
         heights = [max(11, round(part * share * self.size)) for part in (1.0, 0.8)]
         return {
-            k: {high: (text_width(text, high) + 0.5 * high, 1.1 * high) for high in heights}
-            for k, text in self._texts.items()
+            k: {high: (text_width(str(number), high) + 0.5 * high, 1.1 * high) for high in heights}
+            for k, number in self.subject.wanted.items()
         }
-
-    @cached_property
-    def _texts(self) -> dict[int, str]:
-        return {k: str(self.subject.number_of(k)) for k in self.subject.wanted}
 
     def _trace_ink(self, hits: RayHits, steps: Any = None) -> LineStrengths:
         """How much of each pixel (h, w) the lines of a drawing cover, of 255; steps: pixels that are on a line besides.
@@ -146,7 +142,8 @@ class LabelingCanvas:
             column, row = points.mean(axis=0).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
         places = place_numbers(items, self._number_sizes, known)
-        draw_texts(draw, places, self._texts, self.subject.colors, (0, head_height(self.size)))
+        texts = {k: str(number) for k, number in self.subject.wanted.items()}
+        draw_texts(draw, places, texts, self.subject.colors, (0, head_height(self.size)))
         return sorted(place.item for place in places)
 
 

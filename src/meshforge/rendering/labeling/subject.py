@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -47,19 +47,11 @@ _HULLS_NAMED = 6  # hulls that a name lists one by one
 
 @dataclass(frozen=True, eq=False)
 class LabelingSubject:
-    """A mesh, the hulls (indices) that pictures are to show and number, and the axis that points up.
-
-    numbers: those that stand on hulls, by index; a hull that has none there has its index.
-    """
+    """A mesh, the hulls (indices) that pictures are to show, with their numbers, and the axis that points up."""
 
     mesh: SymbolicMesh
-    wanted: tuple[int, ...]
+    wanted: Mapping[int, int]
     up: Up
-    numbers: Mapping[int, int] = field(default_factory=dict)
-
-    def number_of(self, hull: int) -> int:
-        """Return what stands on a hull."""
-        return self.numbers.get(hull, hull)
 
     @cached_property
     def render_meshes(self) -> list[RenderMesh]:
@@ -132,10 +124,14 @@ class Arrangement:
     def describe(self, view: View) -> str:
         """Return what a picture from there shows, in words."""
         words = VIEW_WORDS[view]
-        solid, close = ([*map(self.subject.number_of, hulls)] for hulls in (self.solid, self.close))
-        if len(solid) < len(self.subject.render_meshes):
-            return f"{_list_hulls(solid)} alone, {words}" + (", close up" if close else "")
-        return f"{words}, close up of {_list_hulls(close)}" if close else words
+        if len(self.solid) < len(self.subject.render_meshes):
+            return f"{self._list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
+        return f"{words}, close up of {self._list_hulls(self.close)}" if self.close else words
+
+    def _list_hulls(self, hulls: tuple[int, ...]) -> str:
+        texts = [str(self.subject.wanted.get(k, k)) for k in hulls[:_HULLS_NAMED]]
+        more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
+        return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"
 
     @cached_property
     def view_frame(self) -> ViewFrame:
@@ -197,9 +193,3 @@ class Arrangement:
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
         faint = [subject.render_meshes[k] for k in near_by] + subject.non_convex
         return prepare_for_rays(self._build_scene(faint), None)
-
-
-def _list_hulls(hulls: Sequence[int]) -> str:
-    texts = [str(k) for k in hulls[:_HULLS_NAMED]]
-    more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
-    return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"

@@ -52,7 +52,7 @@ def test_what_the_server_refuses_is_not_asked_of_it(schema: str, thinks: bool) -
         assert one.ask(question(schema=SCHEMA)).text == "leg"
         limit = "max_completion_tokens" if thinks else "max_tokens"
         refused = {"response_format"} if schema == "refused" else set()
-        assert one.find_refused() == refused | ({"temperature", "max_tokens"} if thinks else set())
+        assert one.refused == refused | ({"temperature", "max_tokens"} if thinks else set())
         (asked,) = server.answered
         sent = {"response_format", "temperature", "max_tokens", "max_completion_tokens"} & asked.body.keys()
         wanted = {limit} | (set() if schema == "refused" else {"response_format"})
@@ -239,7 +239,7 @@ def test_an_address_that_cannot_be_is_told_without_its_secrets(url: str, message
 def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path) -> None:
     with serving(lambda asked: "leg", delay=0.1) as server:
         one = client(server, tmp_path, concurrency=4)
-        one.find_refused()
+        one.probe()
         together = threading.Barrier(4)
 
         def ask(_: int) -> str:

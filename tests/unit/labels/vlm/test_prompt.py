@@ -15,7 +15,7 @@ from PIL import Image
 
 from meshforge.geometry import Box, Pose, Shape
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
-from meshforge.labels.vlm.prompt import AskedMesh, PromptConfig, ask_every_hull, build_questions, example_messages
+from meshforge.labels.vlm.prompt import AskedMesh, PromptConfig, build_questions, example_messages
 from meshforge.rendering import draw_labeling_pictures
 from meshforge.store import VlmSettings
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -68,7 +68,7 @@ def labelling(
         config = replace(config, examples=shown)
 
         def ask(mesh: SymbolicMesh, name: str = "") -> VlmAnswers:
-            return ask_questions(one, config, ask_every_hull(name, mesh, config))
+            return ask_questions(one, config, build_questions([AskedMesh(name, mesh, [*mesh.index])], config))
 
         yield ask, server
         one.close()
@@ -94,7 +94,7 @@ def test_a_right_model_labels_all_and_surer_with_more_repeats() -> None:
         assert names(said) == true_names(shown)
         assert (left(said), said.failed) == ({}, ())
         assert {label.source for label in said.labels["t"].values()} == {"vlm"}
-        assert len(said.asked) == len(server.answered) == repeats
+        assert len(server.answered) == repeats
         assert all(asked.body["temperature"] == 0 for asked in server.answered)
         sure.append(min(label.confidence for label in said.labels["t"].values()))
     assert 0.3 < sure[0] < sure[1] < 1
@@ -130,7 +130,7 @@ def test_what_is_out_of_the_vocabulary_or_missing_is_asked_once_more() -> None:
         said = ask(shown)
         assert names(said) == {"top": "top", "leg0": "leg", "leg1": "leg", "leg2": "leg", "leg3": "leg"}
         assert left(said) == {"crumb": "the model said hub, which is no label"}
-        assert len(server.answered) == len(said.asked) == 2
+        assert len(server.answered) == 2
         again = server.answered[1]
         assert [message["role"] for message in again.body["messages"]] == ["system", "user", "assistant", "user"]
 
@@ -201,7 +201,7 @@ def test_no_picture_has_more_than_twelve_colours_and_one_question_all_hulls() ->
         (asked,) = server.answered
         assert asked.numbers == tuple(range(32))
     with patch("meshforge.labels.vlm.prompt.draw_labeling_pictures", wraps=draw_labeling_pictures) as drawn:
-        ask_every_hull("", shown, PromptConfig(WORDS, VlmSettings(size=SMALL)))
+        build_questions([AskedMesh("", shown, [*shown.index])], PromptConfig(WORDS, VlmSettings(size=SMALL)))
     assert [len(call.kwargs["hulls"]) for call in drawn.call_args_list] == [10, 11, 11]
 
 
