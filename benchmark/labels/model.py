@@ -15,7 +15,7 @@ from benchmark.labels.methods import LabellerOutput, Labels, Method
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint
-from meshforge.labels.vlm.prompt import AskedMesh, PromptConfig, build_questions
+from meshforge.labels.vlm.prompt import MeshHulls, PromptConfig, build_questions
 from meshforge.labels.vlm.question import Reply, VlmQuestion
 from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
@@ -56,7 +56,7 @@ class ModelLabeller:
         client = CostClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         meshes = [family.bare[place] for place in family.drawn]
         with closing(client), ThreadPoolExecutor(self.settings.concurrency) as threads:
-            drawn = (build_questions([AskedMesh("", mesh, [*mesh.index])], manner) for mesh in meshes)
+            drawn = (build_questions([MeshHulls("", mesh, [*mesh.index])], manner) for mesh in meshes)
             pending = [threads.submit(ask_questions, client, manner, questions) for questions in drawn]
             said = [one.result() for one in pending]
         self.spent += client.usage.cost or 0.0

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING
 
 import typer
 
@@ -14,11 +13,8 @@ from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import join_names, pluralize
-from meshforge.labels import Endpoint, VlmLabeler, approve_host, check_approved, describe_sending, is_approved
+from meshforge.labels import Endpoint, Usage, VlmLabeler, approve_host, check_approved, describe_sending, is_approved
 from meshforge.project import Project
-
-if TYPE_CHECKING:
-    from meshforge.labels import Usage
 
 _MAX_NAMES = 8  # names in a row
 

@@ -17,7 +17,7 @@ from benchmark.labels.families import LABELLED, Family, families
 from benchmark.labels.methods import REPEATS, LabellerOutput, Method, offline
 from benchmark.labels.scores import score_labels
 from meshforge.common import UsageError
-from meshforge.labels.vlm.prompt import AskedMesh, PromptConfig, build_questions
+from meshforge.labels.vlm.prompt import MeshHulls, PromptConfig, build_questions
 from meshforge.store import VlmSettings
 from tests.loopback import Asked, labels_as_json, serving
 from tests.unit.benchmark.model_asking import PRICES, key, settings_file
@@ -86,7 +86,7 @@ class Model:
         self.truth: dict[bytes, dict[int, str]] = {}
         for place, labels in zip(family.drawn, truth(family), strict=True):
             mesh, config = family.bare[place], PromptConfig(family.vocabulary, VlmSettings(size=SIZE))
-            (asked,) = build_questions([AskedMesh("", mesh, [*mesh.index])], config)
+            (asked,) = build_questions([MeshHulls("", mesh, [*mesh.index])], config)
             self.truth[next(asked.question.pictures)] = dict(enumerate(labels))
         self.asked = 0
 

@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels.vlm import plan
-from meshforge.labels.vlm.prompt import AskedMesh, HullQuestion, PromptConfig, build_questions
+from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm.prompt import HullQuestion, MeshHulls, PromptConfig, build_questions
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label
 from tests.examples import examples
@@ -451,12 +451,12 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
 ) -> None:
     project = family(tmp_path, 3)
 
-    def draw(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[HullQuestion, ...]:
+    def draw(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
         if meshes[0].name == "t001.obj":
             raise ZeroDivisionError("no room for the picture")
         return build_questions(meshes, config)
 
-    monkeypatch.setattr(plan, "build_questions", draw)
+    monkeypatch.setattr(prompt, "build_questions", draw)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = label_with_vlm(project, settings(server))

@@ -7,7 +7,7 @@ import json
 import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from meshforge.common import join_names
 from meshforge.labels.vlm.client import Client
@@ -114,17 +114,16 @@ class VlmAnswers:
     failed: complaints about questions that got no answer, in their order, each once.
     """
 
-    labels: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
-    open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    failed: tuple[str, ...] = ()
+    labels: Mapping[str, Mapping[str, Label]]
+    open: Mapping[str, Mapping[str, str]]
+    failed: tuple[str, ...]
 
 
 def ask_questions(
     client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
 ) -> VlmAnswers:
     """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
-    votes, why = defaultdict[HullKey, list[str | None]](list), dict[HullKey, str]()
-    failed = dict[str, None]()
+    votes, why, failed = defaultdict[HullKey, list[str | None]](list), dict[HullKey, str](), dict[str, None]()
     for one in questions:
         question, left = one.question, tuple(one.hulls)
         why = {one.hulls[number]: _UNANSWERED for number in left} | why

@@ -237,8 +237,8 @@ class Client:
             return self._give_up(f"{status}: {text}")
         if status in (401, 403) or (status == 400 and "api key" in complaint):
             name = self.endpoint.key_name
-            held = f"The key is what the environment variable {name} holds."
-            remedy = held if name else "Name its key: key_env in [vlm]."
+            named = f"The key is what the environment variable {name} holds."
+            remedy = named if name else "Name its key: key_env in [vlm]."
             return EndError(f"the server does not accept the key: {text}", where=where, remedy=remedy)
         if status == 400 and "image" in complaint:
             return EndError(f"this model takes no pictures: {text}", where=self.endpoint.settings.model)

@@ -75,21 +75,17 @@ class Endpoint:
             raise UsageError("no model is named", where=self.place, remedy="Name one: --model NAME, or model in [vlm].")
 
     @property
-    def name(self) -> str:
-        """The name of the machine."""
-        return urlsplit(self.settings.base_url).hostname or ""
-
-    @property
     def host(self) -> str:
         """The name of the machine, with the port where one is given."""
-        port = urlsplit(self.settings.base_url).port
-        return f"{self.name}:{port}" if port else self.name
+        parts = urlsplit(self.settings.base_url)
+        return f"{parts.hostname}:{parts.port}" if parts.port else parts.hostname or ""
 
     @property
     def is_loopback(self) -> bool:
         """Whether the host is this machine."""
+        name = urlsplit(self.settings.base_url).hostname or ""
         try:
-            return self.name == "localhost" or ip_address(self.name).is_loopback
+            return name == "localhost" or ip_address(name).is_loopback
         except ValueError:
             return False
 
@@ -103,7 +99,7 @@ class Endpoint:
     def key_name(self) -> str:
         """The environment variable of the key, empty where the server wants none."""
         named = self.settings.key_env
-        return _KEYS.get(self.name, "") if named is None else named
+        return _KEYS.get(urlsplit(self.settings.base_url).hostname or "", "") if named is None else named
 
     @property
     def has_key(self) -> bool:

@@ -3,7 +3,6 @@ cost."""
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import closing
@@ -17,7 +16,7 @@ from meshforge.labels.vlm.answer import NOT_KNOWN, VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
-from meshforge.labels.vlm.plan import DrawnQuestions, draw_questions, plan_questions
+from meshforge.labels.vlm.plan import QuestionBatch, draw_questions, plan_questions
 from meshforge.labels.vlm.prompt import PromptConfig
 from meshforge.store import Store, VlmSettings
 from meshforge.symbolic import Label
@@ -83,13 +82,13 @@ class VlmLabeler(Labeler):
         problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
         client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
         with closing(client), family.stage(len(plans), "asking") as advance:
-            for drawn, said in _ask(client, family, config, draw_questions(family, plans, config)):
+            for drawn, answers in _ask(client, family, config, draw_questions(family, plans, config)):
                 hulls |= drawn.assets
-                labels |= said.labels
-                left |= said.open
+                labels |= answers.labels
+                left |= answers.open
                 lost |= dict.fromkeys(drawn.plan, drawn.error) if drawn.error else {}
-                problems[next(iter(drawn.plan))] = said.failed
-                reached |= {*drawn.plan} if said.labels or not said.failed else set()
+                problems[next(iter(drawn.plan))] = answers.failed
+                reached |= {*drawn.plan} if answers.labels or not answers.failed else set()
                 done += 1
                 advance()
         end = client.end
@@ -114,15 +113,15 @@ class VlmLabeler(Labeler):
 
 
 def _ask(
-    client: Client, family: LabelFamily, config: PromptConfig, questions: Generator[DrawnQuestions, None, None]
-) -> Iterator[tuple[DrawnQuestions, VlmAnswers]]:
+    client: Client, family: LabelFamily, config: PromptConfig, questions: Generator[QuestionBatch, None, None]
+) -> Iterator[tuple[QuestionBatch, VlmAnswers]]:
     """Yield questions with their answers, in order, as long as asking goes on; several are under way at once."""
     stop, concurrency = family.execution.stop or (lambda: False), config.settings.concurrency
     threads = ThreadPoolExecutor(concurrency, "asking")
-    waiting = deque[tuple[DrawnQuestions, Future[VlmAnswers]]]()
+    waiting = list[tuple[QuestionBatch, Future[VlmAnswers]]]()
 
-    def take() -> tuple[DrawnQuestions, VlmAnswers]:
-        drawn, future = waiting.popleft()
+    def take() -> tuple[QuestionBatch, VlmAnswers]:
+        drawn, future = waiting.pop(0)
         while not future.done():
             stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
             wait([future], timeout=0.1)

@@ -6,7 +6,6 @@ from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import islice
 
 from meshforge import symbolic
 from meshforge.batch import WorkerFailure, execute
@@ -14,15 +13,8 @@ from meshforge.common import AssetError, UsageError, describe_error
 from meshforge.label_model import choose_exemplars
 from meshforge.labels.family_comparison import FamilyDescription, describe_assets
 from meshforge.labels.labeler import LabelFamily
-from meshforge.labels.vlm.prompt import (
-    MOST_COLORS,
-    AskedMesh,
-    HullKey,
-    HullQuestion,
-    PromptConfig,
-    build_questions,
-    example_messages,
-)
+from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm.prompt import PromptConfig
 from meshforge.labels.vlm.question import Message
 from meshforge.store import AssetFiles, Store, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES
@@ -36,7 +28,7 @@ QuestionPlan = Mapping[str, Sequence[str]]
 
 
 @dataclass(frozen=True, slots=True)
-class DrawnQuestions:
+class QuestionBatch:
     """Questions, drawn. assets: digests of the hulls of each, by name; wanted: the hulls asked about that may change.
 
     error: why nothing can be asked.
@@ -44,8 +36,8 @@ class DrawnQuestions:
 
     plan: QuestionPlan
     assets: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    wanted: frozenset[HullKey] = frozenset()
-    questions: tuple[HullQuestion, ...] = ()
+    wanted: frozenset[prompt.HullKey] = frozenset()
+    questions: tuple[prompt.HullQuestion, ...] = ()
     error: str | None = None
 
 
@@ -55,7 +47,7 @@ def plan_questions(family: LabelFamily, config: PromptConfig) -> tuple[FamilyDes
     if config.settings.every_hull:
         return None, [{asset: ()} for asset in family.store.assets()]
     described, rows = describe_assets(family), list[tuple[str, list[str]]]()
-    for mesh, places in choose_exemplars(described.table, _QUESTIONS * _TOGETHER, MOST_COLORS).items():
+    for mesh, places in choose_exemplars(described.table, _QUESTIONS * _TOGETHER, prompt.MOST_COLORS).items():
         asset, begin = described.assets[mesh], described.table.spans[mesh].start
         names = [*described.hulls[asset]]
         rows.append((asset, [names[place - begin] for place in places]))
@@ -65,31 +57,31 @@ def plan_questions(family: LabelFamily, config: PromptConfig) -> tuple[FamilyDes
 
 def draw_questions(
     family: LabelFamily, plans: Sequence[QuestionPlan], config: PromptConfig
-) -> Generator[DrawnQuestions, None, None]:
+) -> Generator[QuestionBatch, None, None]:
     """Yield the questions as soon as they are drawn, in their order; some are drawn ahead of the others."""
     config = replace(config, examples=_find_examples(family, config))
     items = [(plan, family.store.asset_files([*plan])) for plan in plans]
     with closing(execute(partial(_draw, config), items, replace(family.execution, stop=None))) as work:
         for plan, found in zip(plans, work, strict=True):
             if isinstance(found, WorkerFailure):
-                found = DrawnQuestions(plan, error=f"{', '.join(plan)}: {found.why}")
+                found = QuestionBatch(plan, error=f"{', '.join(plan)}: {found.why}")
             yield found
 
 
-def _draw(config: PromptConfig, item: tuple[QuestionPlan, Sequence[AssetFiles]]) -> DrawnQuestions:
+def _draw(config: PromptConfig, item: tuple[QuestionPlan, Sequence[AssetFiles]]) -> QuestionBatch:
     """Nothing is asked where no hull is wanted; else about all, so that answers can be found again by then."""
     plan, places = item
     try:
         meshes = {asset: place.read_mesh() for asset, place in zip(plan, places, strict=True)}
-        asked = [AskedMesh(asset, mesh, plan[asset] or [*mesh.index]) for asset, mesh in meshes.items()]
+        asked = [prompt.MeshHulls(asset, mesh, plan[asset] or [*mesh.index]) for asset, mesh in meshes.items()]
         every = ((one.name, one.mesh.hull_of(hull)) for one in asked for hull in one.hulls)
         wanted = frozenset((asset, hull.name) for asset, hull in every if hull.source not in GIVEN_SOURCES)
         digests = {asset: hull_digests(mesh) for asset, mesh in meshes.items()}
         if not wanted:
-            return DrawnQuestions(plan, digests)
-        return DrawnQuestions(plan, digests, wanted, build_questions(asked, config))
+            return QuestionBatch(plan, digests)
+        return QuestionBatch(plan, digests, wanted, prompt.build_questions(asked, config))
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return DrawnQuestions(plan, error=describe_error(error, ", ".join(plan)))
+        return QuestionBatch(plan, error=describe_error(error, ", ".join(plan)))
 
 
 def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, ...]:
@@ -97,13 +89,13 @@ def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, 
     person or a file."""
     store, found = family.store, list[Message]()
     labelled = (asset for asset, facts in family.iterate_facts() if _is_labelled(store, asset, facts.hulls))
-    for asset in config.settings.examples or islice(labelled, _EXAMPLES):
+    for asset in config.settings.examples or [asset for _, asset in zip(range(_EXAMPLES), labelled, strict=False)]:
         mesh = store.mesh(asset)
         guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
         if len(guessed) == len(mesh.hulls):
             remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
             raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
-        found += example_messages(asset, mesh.with_labels(guessed), config)
+        found += prompt.example_messages(asset, mesh.with_labels(guessed), config)
     return tuple(found)
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,9 +14,6 @@ from meshforge.labels.vlm.question import Message, Part, VlmQuestion
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
 from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
-
-if TYPE_CHECKING:
-    from PIL.Image import Image
 
 HullKey = tuple[str, str]
 """The name of a mesh, and that of one of its hulls."""
@@ -75,7 +71,7 @@ class PromptConfig:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class AskedMesh:
+class MeshHulls:
     """A mesh, and those of its hulls that a question is about. name: of the asset."""
 
     name: str
@@ -91,7 +87,7 @@ class HullQuestion:
     hulls: Mapping[int, HullKey]
 
 
-def build_questions(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[HullQuestion, ...]:
+def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
     """Return the question about hulls of some meshes, once for each repeat; of one with very many hulls several."""
     first, *more = meshes
     if not more and len(first.hulls) > _MOST_HULLS:
@@ -106,22 +102,19 @@ def build_questions(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[
 
 def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
     """Return a labelled mesh as a question with its answer: a few hulls of each label; nothing where none has one."""
-    count, ranked = Counter[str](), list[tuple[int, int, str]]()
-    for k, hull in enumerate(mesh.hulls):
-        if hull.label in config.vocabulary:
-            ranked.append((count[hull.label], k, hull.name))
-            count[hull.label] += 1
-    few = [hull for _, _, hull in sorted(ranked)[:MOST_COLORS]]
+    labels = [hull.label for hull in mesh.hulls]
+    order = sorted(range(len(labels)), key=lambda k: (labels[:k].count(labels[k]), k))
+    few = sorted([k for k in order if labels[k] in config.vocabulary][:MOST_COLORS])
     if not few:
         return ()
-    shown = [hull for hull in mesh.index if hull in few]
-    pictures, hulls = _show_meshes([AskedMesh(name, mesh, shown)], config)
-    rows = [{"number": number, "label": mesh.hull_of(hull).label} for number, (_, hull) in hulls.items()]
-    answer = {"object": config.settings.about or "one of these objects", "parts": sorted(count), "hulls": rows}
+    pictures, hulls = _show_meshes([MeshHulls(name, mesh, [mesh.hulls[k].name for k in few])], config)
+    rows = [{"number": number, "label": labels[k]} for number, k in zip(hulls, few, strict=True)]
+    parts = [label for label in config.vocabulary if label in labels]
+    answer = {"object": config.settings.about or "one of these objects", "parts": parts, "hulls": rows}
     return pictures, Message.assistant(json.dumps(answer, ensure_ascii=False))
 
 
-def _show_meshes(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[Message, dict[int, HullKey]]:
+def _show_meshes(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[Message, dict[int, HullKey]]:
     """The pictures and lines of text of some hulls; and the hulls by number."""
     parts, hulls = list[Part](), dict[int, HullKey]()
     for place, asked in enumerate(meshes):
@@ -141,7 +134,7 @@ def _show_meshes(meshes: Sequence[AskedMesh], config: PromptConfig) -> tuple[Mes
     return Message.user(*parts), hulls
 
 
-def _join(shot: LabelingPicture) -> Image:
+def _join(shot: LabelingPicture) -> Any:
     """The numbered picture with the plain one at its right."""
     from PIL import Image  # lazy: 0.01 s, only pictures need it
 

@@ -161,11 +161,11 @@ class Reply:
         return self.finish == "length"
 
 
+@dataclass(frozen=True, slots=True)
 class AnswerCache:
     """A folder of answers: `answers/DIGEST.json` holds what was sent and what came back, `pictures/` the pictures."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    folder: Path
 
     def read(self, question: VlmQuestion, endpoint: Endpoint) -> Reply | None:
         """Return the answer to a question, None where there is none, or none that can be read."""

@@ -15,7 +15,7 @@ from PIL import Image
 
 from meshforge.geometry import Box, Pose, Shape
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
-from meshforge.labels.vlm.prompt import AskedMesh, PromptConfig, build_questions, example_messages
+from meshforge.labels.vlm.prompt import MeshHulls, PromptConfig, build_questions, example_messages
 from meshforge.rendering import draw_labeling_pictures
 from meshforge.store import VlmSettings
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -68,7 +68,7 @@ def labelling(
         config = replace(config, examples=shown)
 
         def ask(mesh: SymbolicMesh, name: str = "") -> VlmAnswers:
-            return ask_questions(one, config, build_questions([AskedMesh(name, mesh, [*mesh.index])], config))
+            return ask_questions(one, config, build_questions([MeshHulls(name, mesh, [*mesh.index])], config))
 
         yield ask, server
         one.close()
@@ -201,12 +201,12 @@ def test_no_picture_has_more_than_twelve_colours_and_one_question_all_hulls() ->
         (asked,) = server.answered
         assert asked.numbers == tuple(range(32))
     with patch("meshforge.labels.vlm.prompt.draw_labeling_pictures", wraps=draw_labeling_pictures) as drawn:
-        build_questions([AskedMesh("", shown, [*shown.index])], PromptConfig(WORDS, VlmSettings(size=SMALL)))
+        build_questions([MeshHulls("", shown, [*shown.index])], PromptConfig(WORDS, VlmSettings(size=SMALL)))
     assert [len(call.kwargs["hulls"]) for call in drawn.call_args_list] == [10, 11, 11]
 
 
 def test_hulls_of_several_meshes_have_numbers_of_their_own_and_the_object_stands_beside() -> None:
-    meshes = [AskedMesh(name, table(), ["leg1", "crumb"]) for name in ("a", "b", "c")]
+    meshes = [MeshHulls(name, table(), ["leg1", "crumb"]) for name in ("a", "b", "c")]
     (one,) = build_questions(meshes, PromptConfig(WORDS, VlmSettings(size=SMALL)))
     assert one.hulls == dict(enumerate((name, hull) for name in "abc" for hull in ("leg1", "crumb")))
     assert "This is object 2.\nPicture:" in one.question.text
@@ -239,7 +239,7 @@ def test_examples_are_shown_with_their_answers() -> None:
         messages = server.answered[0].body["messages"]
         assert [message["role"] for message in messages] == ["system", "user", "assistant", "user"]
         rows = json.loads(messages[2]["content"])
-        assert rows["parts"] == ["crumb", "leg", "top"]
+        assert rows["parts"] == ["top", "leg", "crumb"]
         assert [row["label"] for row in rows["hulls"]] == ["top", "leg", "leg", "leg", "crumb"]
         assert "belong to: 0, 2, 3, 4, 5?" in server.answered[0].text
         assert server.answered[0].numbers == tuple(range(7))
