@@ -93,11 +93,13 @@ def choose_exemplars(table: FamilyTable, meshes: int, hulls: int) -> dict[int, l
     meshes, hulls: at most so many meshes, and hulls of each. Of very many meshes those are looked at that always
     are when labels are propagated. Labels do not matter.
     """
+    if not len(table.owner):
+        return {}
     looked = np.flatnonzero(np.isin(table.owner, pick_evenly(np.unique(table.owner), MOST_MESHES)))
     apart = _measure_clusters(table.rows[looked] * table.metric)
     owner, cluster, found = table.owner[looked], apart.argmin(axis=1), dict[int, list[int]]()
     left = np.bincount(cluster, minlength=apart.shape[1])
-    shows = np.zeros((int(owner.max(initial=0)) + 1, len(left)), dtype=np.bool_)
+    shows = np.zeros((int(owner.max()) + 1, len(left)), dtype=np.bool_)
     shows[owner, cluster] = True
     while (shows & (left > 0)).any() and len(found) < meshes:
         mesh = int(first_greatest((shows * np.sqrt(left)).sum(axis=1)))
@@ -115,7 +117,7 @@ def _measure_clusters(rows: Floats) -> Floats:
     from scipy.spatial.distance import cdist  # lazy: as above
 
     found = np.zeros((len(rows), 0))
-    farness = -np.abs(rows - np.median(rows, axis=0)).sum(axis=1) if len(rows) else np.zeros(0)
+    farness = -np.abs(rows - np.median(rows, axis=0)).sum(axis=1)
     while found.shape[1] < min(_MOST_CLUSTERS, len(rows)) and not (found.size and farness.max() <= RADIUS):
         center = rows[[int(first_greatest(farness))]]
         found = np.concatenate([found, cdist(rows, center, "cityblock")], axis=1)

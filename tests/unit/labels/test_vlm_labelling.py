@@ -422,13 +422,6 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
     assert not project.layout.labels.ids
 
 
-def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-    with serving(right) as server:
-        server._probed = lambda asked: '{"colour": "blue"}'  # type: ignore[method-assign]
-        assert label_with_vlm(project, settings(server)).blind
-
-
 def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
     project = family(tmp_path, 2)
     assets = project.assets()

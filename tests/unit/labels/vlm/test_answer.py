@@ -49,7 +49,7 @@ def test_all_that_says_the_same_is_read_the_same(text: str) -> None:
         ("I cannot see any numbers.", {}, (), (0, 2)),
         ('{"hulls": []}', {}, (), (0, 2)),
         ('{"hulls": [{"number": 0, "label": "wheel"}, {"number": 2, "label": "leg"}]}', {2: "leg"}, ("wheel",), (0,)),
-        ('{"hulls": [{"number": 0, "label": "leg"}, {"number": 0, "label": "table top"}]}', {}, (), (0, 2)),
+        ('{"hulls": [{"0": "leg"}, {"2": "leg"}, {"0": "table top"}]}', {2: "leg"}, (), (0,)),
         (
             '{"hulls": [{"number": 0, "label": "unknown"}, {"number": 2, "label": "Unknown"}]}',
             {0: None, 2: None},
