@@ -112,7 +112,7 @@ class Client:
                 self.refused = refused
                 return reply
             except RefusalError as error:
-                more = find_refused(error.problem, refused)
+                more = find_refused(error.problem, refused, is_first=not self._answered)
                 if more is None:
                     raise
                 refused |= {more}

@@ -112,11 +112,12 @@ def build_body(question: VlmQuestion, endpoint: Endpoint, refused: Collection[st
     return kept | dict(endpoint.settings.extra)
 
 
-def find_refused(complaint: str, refused: Collection[str]) -> str | None:
-    """Return what a server complains about, or else what can be spared next; None: nothing is left."""
+def find_refused(complaint: str, refused: Collection[str], *, is_first: bool) -> str | None:
+    """Return what a server complains about, or else what can be spared next, after the first question only the schema;
+    None: nothing."""
     left = {name: word for name, word in _OPTIONAL.items() if name not in refused}
     named = (name for name, word in left.items() if word in complaint.lower() or name in complaint.lower())
-    return next(named, next(iter(left), None))
+    return next(named, next((name for name in left if is_first or name == "response_format"), None))
 
 
 def _format_content(message: Message) -> Any:

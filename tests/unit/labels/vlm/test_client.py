@@ -181,7 +181,7 @@ def test_a_refused_question_is_asked_without_its_schema_and_then_given_up() -> N
         with pytest.raises(RefusalError, match=r"the server refused the question \(400\): too long"):
             one.ask(question("a long one", schema=SCHEMA))
         assert one.end is None
-        assert one.usage.retries == 0
+        assert (one.usage.retries, sum(not asked.is_probe for asked, _, _ in server.asked)) == (0, 2)
 
 
 def test_the_key_is_in_no_message_and_in_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, key: str) -> None:
