@@ -72,7 +72,8 @@ class VlmLabeler(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         settings = self.settings or family.store.settings.vlm
         check_approved(Endpoint(settings), self.typed)
-        return LabelProposal(self._label(family, PromptConfig(family.vocabulary, settings)))
+        labels = [*self._label(family, PromptConfig(family.vocabulary, settings))]
+        return LabelProposal(one for one in labels)
 
     def _label(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
         store, settings, stop = family.store, config.settings, family.execution.stop or (lambda: False)
