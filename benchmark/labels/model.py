@@ -67,5 +67,5 @@ class ModelLabeller:
 
 
 def _labels(mesh: SymbolicMesh, said: VlmAnswers) -> Labels:
-    found = said.labels.get("", {})
-    return tuple(found[hull.name].name if hull.name in found else None for hull in mesh.hulls)
+    found, left = said.labels.get("", {}), said.open.get("", {})
+    return tuple(None if hull.name in left else found[hull.name].name for hull in mesh.hulls)

@@ -21,7 +21,7 @@ _NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
 _AGAIN = """\
 That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
 _UNANSWERED = "the question got no answer"
-NOT_KNOWN = "the model does not know"
+_NOT_KNOWN = "the model does not know"
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
 
@@ -32,12 +32,12 @@ _AGAINST = 0.4
 
 @dataclass(frozen=True, slots=True)
 class HullAnswer:
-    """What was said of the hulls asked about. labels: by number, None for unknown.
+    """What was said of the hulls asked about. labels: by number, among them that for unknown.
 
     odd: words that are no labels; open: numbers asked about of which nothing usable was said, in their order.
     """
 
-    labels: Mapping[int, str | None]
+    labels: Mapping[int, str]
     unrecognised: tuple[str, ...]
     open: tuple[int, ...]
 
@@ -51,21 +51,18 @@ class HullAnswer:
         return "the model said nothing usable of it"
 
 
-def read_answer(text: str, asked: Collection[int], vocabulary: Sequence[str], unknown: str) -> HullAnswer:
+def read_answer(text: str, asked: Collection[int], words: Sequence[str]) -> HullAnswer:
     """Return what a text says, be it JSON, JSON in chatter or code fences, or JSON that is cut off.
 
-    Numbers that were not asked about are passed over; one with two labels is left open.
+    words: that it may say. Numbers that were not asked about are passed over; one with two labels is left open.
     """
-    words: dict[str, str | None] = {_normalize(unknown): None} | {_normalize(word): word for word in vocabulary}
-    found: dict[int, set[str | None]] = {}
+    known, found = {_normalize(word): word for word in reversed(words)}, dict[int, set[str]]()
     unrecognised = dict[str, None]()
     for number, word in _entries(text):
         if number not in asked:
             continue
-        if word in vocabulary:
-            found.setdefault(number, set()).add(word)
-        elif (key := _normalize(word)) in words:
-            found.setdefault(number, set()).add(words[key])
+        if label := word if word in words else known.get(_normalize(word)):
+            found.setdefault(number, set()).add(label)
         else:
             unrecognised[word[:_MOST_SHOWN]] = None
     labels = {number: labels.pop() for number, labels in sorted(found.items()) if len(labels) == 1}
@@ -91,11 +88,11 @@ def _entries(text: str) -> Iterator[tuple[int, str]]:
                 yield int(match[1]), word
 
 
-def decide_label(votes: Sequence[str | None], vocabulary: Sequence[str]) -> tuple[str, float] | None:
-    """Return the label with most votes and its confidence, of equals the first; None where that is unknown, or none."""
+def decide_label(votes: Sequence[str], words: Sequence[str]) -> tuple[str, float] | None:
+    """Return the word with most votes, of equals the first, and its confidence; None where there is no vote."""
     count = Counter(votes)
-    best = max((*vocabulary, None), key=count.__getitem__)
-    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if best and count[best] else None
+    best = max(words, key=count.__getitem__)
+    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if votes else None
 
 
 def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
@@ -109,7 +106,8 @@ def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQue
 
 @dataclass(frozen=True, slots=True)
 class VlmAnswers:
-    """What a model said of hulls. labels: by asset and hull; open: why others that were asked about have none.
+    """What a model said of hulls. labels: by asset and hull, also that for unknown; open: why hulls that were asked
+    about have none, or that.
 
     failed: complaints about questions that got no answer, in their order, each once.
     """
@@ -123,7 +121,8 @@ def ask_questions(
     client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
 ) -> VlmAnswers:
     """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
-    votes, why, failed = defaultdict[HullKey, list[str | None]](list), dict[HullKey, str](), dict[str, None]()
+    votes, why, failed = defaultdict[HullKey, list[str]](list), dict[HullKey, str](), dict[str, None]()
+    words = (*config.vocabulary, config.unknown)
     for one in questions:
         question, left = one.question, tuple(one.hulls)
         why = {one.hulls[number]: _UNANSWERED for number in left} | why
@@ -133,7 +132,7 @@ def ask_questions(
             except QuestionError as error:
                 failed[error.sentence] = None
                 break
-            answer = read_answer(reply.text, left, config.vocabulary, config.unknown)
+            answer = read_answer(reply.text, left, words)
             for number, label in answer.labels.items():
                 votes[one.hulls[number]].append(label)
             left = answer.open
@@ -144,8 +143,8 @@ def ask_questions(
             question = ask_again(question, reply, answer)
     labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
     for asset, hull in why if wanted is None else filter(wanted.__contains__, why):
-        if found := decide_label(votes[asset, hull], config.vocabulary):
+        if found := decide_label(votes[asset, hull], words):
             labels[asset][hull] = Label(*found, "vlm")
-        else:
-            left_open[asset][hull] = NOT_KNOWN if votes[asset, hull] else why[asset, hull]
+        if not found or found[0] == config.unknown:
+            left_open[asset][hull] = _NOT_KNOWN if found else why[asset, hull]
     return VlmAnswers(dict(labels), dict(left_open), tuple(failed))

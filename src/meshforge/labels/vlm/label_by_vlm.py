@@ -12,7 +12,7 @@ from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.label_model import reference_label
 from meshforge.labels.family_comparison import FamilyDescription, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
-from meshforge.labels.vlm.answer import NOT_KNOWN, VlmAnswers, ask_questions
+from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
@@ -22,7 +22,6 @@ from meshforge.store import Store, VlmSettings
 from meshforge.symbolic import Label
 
 _LIKE_UNKNOWN = "the model does not know hulls that are like it"
-_SURE = 0.7  # of what one answer says
 _WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
@@ -99,7 +98,7 @@ class VlmLabeler(Labeler):
         ended = None if is_whole else end.message if end else "stopped"
         unasked = () if is_whole else tuple(asset for asset in store.assets() if asset not in reached)
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
-        shares = _propagate(family, described, labels, left, config.unknown) if described and is_whole else {}
+        shares = _propagate(family, described, labels, config.unknown) if described and is_whole else {}
         for asset in (asset for asset in store.assets() if is_whole or asset in reached):
             if asset in lost:
                 yield AssetLabels(asset, error=lost[asset])
@@ -141,21 +140,14 @@ def _ask(
 
 
 def _propagate(
-    family: LabelFamily,
-    described: FamilyDescription,
-    labels: Mapping[str, Mapping[str, Label]],
-    left: Mapping[str, Mapping[str, str]],
-    unknown: str,
+    family: LabelFamily, described: FamilyDescription, labels: Mapping[str, Mapping[str, Label]], unknown: str
 ) -> Mapping[str, Mapping[str, Label]]:
     """The labels of all hulls, by asset, that follow from those of a model and from what people and files say.
 
-    What the model does not know counts as a label, too: `unknown` is that of hulls which are like these.
+    unknown: a label like others, that hulls get which are like those that the model does not know.
     """
-    heard = dict[str, dict[str, Label]]()
-    for asset, own in described.current.items():
-        heard[asset] = {h: Label(unknown, _SURE, "vlm") for h, why in left.get(asset, {}).items() if why == NOT_KNOWN}
-        heard[asset] |= labels.get(asset, {})
-        heard[asset] |= {hull: one for hull, one in own.items() if reference_label(one)}
+    given = {a: {h: one for h, one in own.items() if reference_label(one)} for a, own in described.current.items()}
+    heard = {asset: {**labels.get(asset, {}), **own} for asset, own in given.items()}
     if not any(heard.values()):
         return {}
     family = replace(family, vocabulary=(*family.vocabulary, unknown))

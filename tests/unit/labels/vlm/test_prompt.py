@@ -75,7 +75,7 @@ def labelling(
 
 
 def names(said: VlmAnswers) -> dict[str, str]:
-    return {hull: label.name for own in said.labels.values() for hull, label in own.items()}
+    return {hull: label.name for own in said.labels.values() for hull, label in own.items() if hull not in left(said)}
 
 
 def left(said: VlmAnswers) -> dict[str, str]:
