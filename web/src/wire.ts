@@ -1324,8 +1324,8 @@ export interface LabelSources {
   model: Model | null;
 }
 /**
- * The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it cannot
- * be asked, null where it can.
+ * The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
+ * cannot be asked, null where it can.
  */
 export interface Model {
   name: string;
