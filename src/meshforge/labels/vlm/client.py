@@ -23,7 +23,6 @@ _PROBE_RETRIES = 2  # of the first question at most: a server that is not there 
 _NO_MONEY = ("insufficient_quota", "billing_hard_limit", "billing_not_active", "credit balance", "insufficient balance")
 _LONG = 400  # characters of a server's complaint that are shown
 _SHORT = 60  # and of what it sends in place of JSON
-_NO_KEY = "none"  # the SDK wants one even where the server does not
 
 
 class Client:
@@ -188,7 +187,7 @@ class Client:
                     self._key = self.endpoint.key()
                 except UsageError as error:
                     raise EndError(error.problem, where=error.where, remedy=error.remedy) from error
-                key = self._key or _NO_KEY
+                key = self._key or "none"  # the SDK wants one even where the server does not
                 self._sdk = CountedOpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout)
             return self._sdk
 

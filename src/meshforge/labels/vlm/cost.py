@@ -103,9 +103,6 @@ class CostLimiter:
 
 def estimate_tokens(question: VlmQuestion) -> int:
     """Return about how many tokens a question has; models differ widely in how they count pictures."""
-    pictures = sum(_PICTURE + width * height / _PIXELS for width, height in map(_png_size, question.pictures))
+    sizes = ((int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) for png in question.pictures)
+    pictures = sum(_PICTURE + width * height / _PIXELS for width, height in sizes)
     return int(len(question.text) / _CHARACTERS + pictures) + 1
-
-
-def _png_size(picture: bytes) -> tuple[int, int]:
-    return int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")

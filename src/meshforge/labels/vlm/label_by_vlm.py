@@ -77,7 +77,7 @@ class VlmLabeler(Labeler):
     def _label(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
         store, settings, stop = family.store, config.settings, family.execution.stop or (lambda: False)
         described, plans = plan_questions(family, config)
-        lost, hulls = (dict(described.lost), dict(described.hulls)) if described else ({}, {})
+        lost, hulls = (described.lost, dict(described.hulls)) if described else ({}, {})
         labels, left = dict[str, Mapping[str, Label]](), dict[str, Mapping[str, str]]()
         problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
         client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)

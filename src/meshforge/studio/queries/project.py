@@ -198,5 +198,4 @@ def model_of(project: Project) -> Model | None:
         why = error.message
     if find_spec("openai") is None:
         why = "This needs the extra: pip install 'meshforge[vlm]'"
-    every, most = settings.every_hull, settings.max_cost
-    return Model(name=settings.model, host=host, every_hull=every, max_cost=most, why=why)
+    return Model(name=settings.model, host=host, every_hull=settings.every_hull, max_cost=settings.max_cost, why=why)
