@@ -5,6 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from tests.unit.cli.in_process import Run
 
 pytest_plugins = ["tests.slow_tests"]
 
@@ -20,3 +27,12 @@ os.environ["MESHFORGE_WORKERS"] = "1"
 
 # What commands print is compared however busy the machine is; how far work is comes after seconds.
 os.environ["MESHFORGE_PROGRESS_AFTER"] = "1e6"
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs a command here, in the test's own folder; who needs something there has a fixture of this name, too."""
+    from tests.unit.cli.in_process import runner  # which loads modules that read the settings above
+
+    monkeypatch.chdir(tmp_path)
+    return runner(monkeypatch, capsys)

@@ -41,8 +41,6 @@ _SECONDS = 120  # for all bombs together
 
 @dataclass(frozen=True)
 class Told:
-    """What the command line left behind."""
-
     code: int
     out: str
     err: str

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from meshforge.batch import IN_PROCESS
@@ -16,8 +17,8 @@ FILLED = "cup/b0~1"
 """The hull that fills a cup in the output."""
 
 
-def cup_urdf(shown: bool) -> str:
-    """A cup of five boxes; shown: whether it has a visual, too."""
+def cup_urdf(shown: bool, hulls: Sequence[Box] = (BOTTOM, *WALLS)) -> str:
+    """A cup that collides by some boxes; shown: whether it has a visual, too, of its five."""
 
     def element(kind: str, name: str, box: Box) -> str:
         x, y, z = box.pose.translation
@@ -25,8 +26,8 @@ def cup_urdf(shown: bool) -> str:
         place, size = f'<origin xyz="{x} {y} {z}"/>', f'<geometry><box size="{a} {b} {c}"/></geometry>'
         return f'<{kind} name="{name}">{place}{size}</{kind}>'
 
-    kinds = ("visual", "collision") if shown else ("collision",)
-    elements = "".join(element(kind, f"b{k}", box) for kind in kinds for k, box in enumerate((BOTTOM, *WALLS)))
+    kinds = {"visual": (BOTTOM, *WALLS) if shown else (), "collision": hulls}
+    elements = "".join(element(kind, f"b{k}", box) for kind, boxes in kinds.items() for k, box in enumerate(boxes))
     return f'<robot name="cup"><link name="cup">{elements}</link></robot>'
 
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from meshforge.geometry import Aabb, Box, Pose, Shape
 from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Surface, SymbolicMesh
+from tests.soups import merge_solids
 
 BOTTOM = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.1, 0.01]))
 WALLS = (
@@ -25,9 +24,7 @@ INSIDE = 0.08 * 0.08 * 0.09 * 1000
 
 def surface(shapes: Sequence[Shape], body: str | None = "cup") -> Surface:
     """What some shapes show together, inner faces and all."""
-    starts = np.cumsum([0, *(len(shape.vertices) for shape in shapes)])
-    faces = np.concatenate([shape.faces + start for shape, start in zip(shapes, starts, strict=False)])
-    return Surface(np.concatenate([shape.vertices for shape in shapes]), faces, body)
+    return Surface(*merge_solids(shapes), body)
 
 
 def cup(

@@ -36,7 +36,6 @@ class SceneFile:
         return scene
 
     def view(self, content: bytes, **rest: object) -> int:
-        """A buffer view of bytes."""
         view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(content), **rest}
         self.data += content + b"\0" * (-len(content) % 4)
         return self._add("bufferViews", view)
@@ -50,7 +49,6 @@ class SceneFile:
         return self._add("accessors", {"bufferView": self.view(values.tobytes()), **own, **rest})
 
     def primitive(self, soup: Soup, **rest: object) -> Tree:
-        """A primitive of a surface."""
         points, corners = soup[0].astype("<f4"), soup[1].astype("<u2").reshape(-1, 1)
         return {"attributes": {"POSITION": self.accessor(points)}, "indices": self.accessor(corners), **rest}
 

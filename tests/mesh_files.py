@@ -25,42 +25,6 @@ f 2 5 6
 """
 """An OBJ file of a floor with a peak in it and a wall: no convex hull, but hulls can be made of it."""
 
-CORNER = """\
-v 0 0 0
-v 2 0 0
-v 2 1 0
-v 1 1 0
-v 1 2 0
-v 0 2 0
-v 0 0 1
-v 2 0 1
-v 2 1 1
-v 1 1 1
-v 1 2 1
-v 0 2 1
-f 1 3 2
-f 1 4 3
-f 1 5 4
-f 1 6 5
-f 7 8 9
-f 7 9 10
-f 7 10 11
-f 7 11 12
-f 1 2 8
-f 1 8 7
-f 2 3 9
-f 2 9 8
-f 3 4 10
-f 3 10 9
-f 4 5 11
-f 4 11 10
-f 5 6 12
-f 5 12 11
-f 6 1 7
-f 6 7 12
-"""
-"""An OBJ file of a closed solid like an L, which every decomposition soon cuts into two hulls."""
-
 
 def obj(soup: Soup) -> bytes:
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in soup[0].tolist()]

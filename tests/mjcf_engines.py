@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.mjcf.format import MjcfFormat
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
 from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 KINDS = {
@@ -45,12 +45,7 @@ def model(inside: str, before: str = "") -> str:
 
 
 def asset(folder: Path, inside: str, before: str = "") -> Asset:
-    """The asset of such a model."""
     return read(put(folder, {"main.xml": model(inside, before)}))
-
-
-def shape_of(asset: Asset, name: str) -> Shape:
-    return next(geom.shape for geom in asset.geoms if geom.name == name)
 
 
 def assert_as_in_mujoco(asset: Asset, path: Path) -> None:

@@ -6,13 +6,11 @@ from meshforge.language import Action, Orient, Program
 
 
 def parse_action(text: str) -> Action:
-    """The action in a text."""
     (rule,) = Program.parse(f"All => {text}").rules
     return rule.action
 
 
 def parse_orient(text: str) -> Orient:
-    """The orientation directive in a text, `orient ...`."""
     orient = Program.parse(text).orient
     assert orient is not None
     return orient

@@ -81,7 +81,6 @@ def sample(folder: Path, text: str = SAMPLE) -> Path:
 
 
 def put_text(folder: Path, text: str, name: str = "model.sdf") -> Path:
-    """A text as a file."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / name).write_text(text)
     return folder / name

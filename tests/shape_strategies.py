@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from hypothesis import strategies as st
 
@@ -16,10 +18,8 @@ def rotation(rng: np.random.Generator) -> Floats:
     return np.asarray(axes * np.sign(np.linalg.det(axes)))
 
 
-def shape(kind: str, rng: np.random.Generator, spread: float = 1.0) -> Shape:
-    """A random shape of a kind, sides from 1 cm to 1 m; one in three is square to the axes."""
-    turn = rotation(rng) if rng.random() < 0.67 else np.eye(3)
-    pose, sides = Pose(turn, rng.normal(size=3) * spread), 10.0 ** rng.uniform(-2, 0, size=3)
+def make_shape(kind: str, pose: Pose, sides: Floats, draw_points: Callable[[], Floats]) -> Shape:
+    """A shape of a kind; sides: its sizes (3,), of which it may have fewer; draw_points: (n, 3) of a polytope."""
     first, second = float(sides[0]), float(sides[1])
     match kind:
         case "box":
@@ -33,7 +33,14 @@ def shape(kind: str, rng: np.random.Generator, spread: float = 1.0) -> Shape:
         case "ellipsoid":
             return Ellipsoid(pose, sides)
         case _:
-            return convex_hull(pose.apply(rng.normal(size=(int(rng.integers(8, 40)), 3)) * sides))
+            return convex_hull(pose.apply(draw_points()))
+
+
+def shape(kind: str, rng: np.random.Generator, spread: float = 1.0) -> Shape:
+    """A random shape of a kind, sides from 1 cm to 1 m; one in three is square to the axes."""
+    turn = rotation(rng) if rng.random() < 0.67 else np.eye(3)
+    pose, sides = Pose(turn, rng.normal(size=3) * spread), 10.0 ** rng.uniform(-2, 0, size=3)
+    return make_shape(kind, pose, sides, lambda: rng.normal(size=(int(rng.integers(8, 40)), 3)) * sides)
 
 
 def posed(primitive: Shape) -> Pose:
@@ -103,9 +110,3 @@ def _cloud(kind: str, count: int, rng: np.random.Generator) -> Floats:
             return np.repeat(scattered, 4, axis=0) + rng.normal(size=(4 * count, 3)) * 1e-11
         case _:
             return scattered
-
-
-def separation(a: Shape, b: Shape, direction: Floats) -> float:
-    """How far apart two shapes are along a direction; a lower bound of their distance."""
-    unit = direction / np.linalg.norm(direction)
-    return float(unit @ (b.support(-unit) - a.support(unit)))

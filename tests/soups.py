@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, Polytope, Shape, convex_hull
 
 Soup = tuple[Floats, Ints]
 
@@ -25,6 +25,17 @@ def together(*soups: Soup) -> Soup:
     starts = np.cumsum([0, *(len(v) for v, _ in soups)])
     faces = [f + start for (_, f), start in zip(soups, starts, strict=False)]
     return np.concatenate([v for v, _ in soups]), np.concatenate(faces)
+
+
+def merge_solids(solids: Iterable[Shape]) -> Soup:
+    """The surfaces of solids as one."""
+    return together(*((solid.vertices, solid.faces) for solid in solids))
+
+
+def ball(vertices: int, radius: float = 1.0) -> Polytope:
+    """The hull of so many points at random on a sphere."""
+    points = np.random.default_rng(0).normal(size=(vertices, 3))
+    return convex_hull(radius * points / np.linalg.norm(points, axis=1, keepdims=True))
 
 
 def unindexed(soup: Soup) -> Soup:

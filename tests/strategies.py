@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 from hypothesis import strategies as st
 
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Shape, Sphere, convex_hull
+from meshforge.geometry import Box, Floats, Polytope, Pose, Shape, Sphere, convex_hull
 from meshforge.language import (
     AXES,
     DIRECTIONS,
@@ -36,6 +36,8 @@ from meshforge.language import (
     Union,
 )
 from meshforge.symbolic import Hull, Label, SymbolicMesh
+from tests.loads.readers.base import Place
+from tests.shape_strategies import make_shape
 
 VOCABULARY = ("panel", "leg", "handle", "drawer", "misc")
 BODIES = ("base", "drawer_link")
@@ -59,15 +61,8 @@ directions = st.sampled_from(DIRECTIONS)
 
 def rotation_of(rng: np.random.Generator) -> Floats:
     """A random proper rotation (3, 3)."""
-    q = rng.normal(size=4)
-    w, x, y, z = q / np.linalg.norm(q)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    w, *xyz = rng.normal(size=4)
+    return Place.of_quaternion(np.zeros(3), (*xyz, w)).rotation
 
 
 rotations = seeds.map(lambda seed: rotation_of(np.random.default_rng(seed)))
@@ -76,20 +71,8 @@ rotations = seeds.map(lambda seed: rotation_of(np.random.default_rng(seed)))
 def shape_of(kind: str, rng: np.random.Generator) -> Shape:
     """A random shape of a kind, about half a metre in size, at most a metre off the origin."""
     pose = Pose(rotation_of(rng) if rng.random() < 0.5 else np.eye(3), rng.uniform(-1, 1, 3))
-    a, b, c = rng.uniform(0.05, 0.5, 3)
-    match kind:
-        case "box":
-            return Box(pose, np.array([a, b, c]))
-        case "sphere":
-            return Sphere(pose, a)
-        case "cylinder":
-            return Cylinder(pose, a, b)
-        case "capsule":
-            return Capsule(pose, a, b)
-        case "ellipsoid":
-            return Ellipsoid(pose, np.array([a, b, c]))
-        case _:
-            return convex_hull(pose.apply(rng.uniform(-0.5, 0.5, (int(rng.integers(5, 13)), 3))))
+    sides = rng.uniform(0.05, 0.5, 3)
+    return make_shape(kind, pose, sides, lambda: rng.uniform(-0.5, 0.5, (int(rng.integers(5, 13)), 3)))
 
 
 KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "polytope")

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from meshforge.geometry import Bools, Floats, Ints, Polytope, Shape, heights_above, sample_surface
+from meshforge.geometry import Bools, Floats, Ints, Shape, heights_above, sample_surface
 
 NEAR = 0.005
 """Of the diagonal: the radius of a sphere of 1%."""
@@ -19,16 +19,6 @@ def sample_lost(vertices: Floats, faces: Ints, before: Iterable[Shape], after: I
     reach = NEAR * float(np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0)))
     found: Floats = points[_are_near(points, before, reach) & ~_are_near(points, after, reach)]
     return found
-
-
-def merge_solids(solids: Iterable[Polytope]) -> tuple[Floats, Ints]:
-    """The vertices and faces of solids as one surface."""
-    vertices, faces, start = list[Floats](), list[Ints](), 0
-    for solid in solids:
-        vertices.append(solid.vertices)
-        faces.append(solid.faces + start)
-        start += len(solid.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def _are_near(points: Floats, shapes: Iterable[Shape], reach: float) -> Bools:

@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from meshforge.symbolic import Asset
-
-Corners = tuple[np.ndarray, np.ndarray]
+from meshforge.formats import read
+from tests.loads.comparing import differences, shapes_of
+from tests.loads.readers import READERS
 
 
 def bullet(path: Path) -> dict[str, Any]:
@@ -35,50 +33,18 @@ def bullet(path: Path) -> dict[str, Any]:
 
 
 def mujoco_model(path: Path) -> Any:
-    """The file as MuJoCo compiles it."""
     import mujoco
 
     return mujoco.MjModel.from_xml_path(str(path))
 
 
 MASSES = ("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_pos", "body_quat", "jnt_type", "jnt_axis")
-GEOMS = ("geom_type", "geom_size", "geom_pos", "geom_quat", "geom_friction", "mesh_vert")
 
 
-def mujoco_boxes(path: Path) -> dict[str, Corners]:
-    """The world AABB of each named geom at zero, from the vertices that MuJoCo has, or for a box from its size."""
-    import mujoco
-
-    model = mujoco_model(path)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    found = {}
-    for k in range(model.ngeom):
-        mesh = model.geom_dataid[k]
-        if mesh >= 0:
-            start = model.mesh_vertadr[mesh]
-            points = model.mesh_vert[start : start + model.mesh_vertnum[mesh]].astype(float)
-        elif model.geom_type[k] == mujoco.mjtGeom.mjGEOM_BOX:
-            signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
-            points = signs * model.geom_size[k]
-        else:
-            continue
-        world = points @ data.geom_xmat[k].reshape(3, 3).T + data.geom_xpos[k]
-        found[model.geom(k).name] = (world.min(axis=0), world.max(axis=0))
-    return found
-
-
-def assert_mujoco_agrees(path: Path, asset: Asset) -> int:
-    """MuJoCo has each of its named meshes and boxes where the asset has the hull of that name; how many there were."""
-    tails = [g.name.removeprefix(f"{g.body}/") for g in asset.geoms]
-    hulls = {tail: g.shape for tail, g in zip(tails, asset.geoms, strict=True) if tails.count(tail) == 1}
-    boxes = mujoco_boxes(path)
-    common = [name for name in boxes if name in hulls]  # MuJoCo drops names that two links share
-    for name in common:
-        low, high = boxes[name]
-        np.testing.assert_allclose(low, hulls[name].aabb.min, atol=1e-5, err_msg=name)
-        np.testing.assert_allclose(high, hulls[name].aabb.max, atol=1e-5, err_msg=name)
-    return len(common)
+def assert_mujoco_agrees(path: Path) -> None:
+    """MuJoCo has as many shapes in a URDF as MeshForge reads there, and each where that is."""
+    mujoco = READERS["mujoco"]
+    assert differences(shapes_of(read(path)), list(mujoco.shapes(path)), mujoco, ".urdf") == []
 
 
 def yourdf(path: Path) -> Any:

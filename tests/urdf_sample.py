@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 from meshforge.formats.base import Output, ReadOptions
 from meshforge.formats.urdf.format import UrdfFormat
-from meshforge.geometry import Aabb, Box, Shape
+from meshforge.geometry import Aabb, Box, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Geom
+from tests.mesh_files import obj
+from tests.soups import angle, merge_solids
 
 Corner = tuple[float, float, float]
 
@@ -69,25 +72,12 @@ HULLS = ["base/geom0", "base/posts#0", "base/posts#1", "base/posts#2", "base/geo
 
 def boxes_obj(*corners: tuple[Corner, Corner]) -> str:
     """An OBJ of boxes from corner to corner, without groups."""
-    lines, start = [], 1
-    for low, high in corners:
-        surface = Box.of_bounds(Aabb(low, high)).tessellate()
-        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()]
-        lines += ["f " + " ".join(str(k + start) for k in face) for face in surface.faces.tolist()]
-        start += len(surface.vertices)
-    return "\n".join(lines) + "\n"
+    return obj(merge_solids(Box.of_bounds(Aabb(low, high)).tessellate() for low, high in corners)).decode()
 
 
 def corner_obj() -> str:
     """An OBJ of one L-shaped prism: connected, closed, not convex."""
-    outline = [(1, 1), (1, 3), (0, 3), (0, 0), (3, 0), (3, 1)]
-    lines = [f"v {x} {y} {z}" for z in (0, 1) for x, y in outline]
-    for k in range(1, 5):  # the caps as fans about the inner corner
-        lines += [f"f 1 {k + 2} {k + 1}", f"f 7 {k + 7} {k + 8}"]
-    for k in range(6):
-        n = (k + 1) % 6
-        lines += [f"f {k + 1} {n + 1} {n + 7}", f"f {k + 1} {n + 7} {k + 7}"]
-    return "\n".join(lines) + "\n"
+    return obj(angle()).decode()
 
 
 THREE = boxes_obj(((0, 0, 0), (1, 1, 1)), ((3, 0, 0), (4, 1, 2)), ((0, 3, 0), (1, 4, 1.5)))
@@ -141,6 +131,21 @@ def made(asset: Asset, parent: str, shape: Shape, number: int = 1) -> Geom:
     """A made hull that inherits from a hull of the asset."""
     body = next(g.body for g in asset.geoms if g.name == parent)
     return Geom(f"{parent}~{number}", body, shape, parent)
+
+
+def exchange_hulls(asset: Asset, *kinds: Callable[[Pose, Floats], Shape]) -> Asset:
+    """The asset without its first hull and every third after it; turned shapes of the kinds in place of the first."""
+    gone = asset.geoms[::3]
+    kept = without(asset, *(geom.name for geom in gone))
+    turned, new = Pose.from_rpy([0, 0, 0], [0.3, -0.5, 1.1]).rotation, []
+    for k, geom in enumerate(gone[: 2 * len(kinds)]):
+        shape = kinds[k % len(kinds)](Pose(turned, geom.shape.aabb.center), geom.shape.aabb.size / 2)
+        new.append(made(asset, geom.name, shape))
+    return kept.with_geoms([*kept.geoms, *new])
+
+
+def ball_within(pose: Pose, half: Floats) -> Sphere:
+    return Sphere(pose, float(half.min()))
 
 
 def robot(*inside: str) -> str:

@@ -77,7 +77,7 @@ class Client(TaskClient):
         if program is None:
             return None
         by_hand, meant = project.manual_edits(asset), project.feedback().verdict_on(asset)
-        key = (asset, str(program), str(project.labels(asset)), f"{by_hand} {meant and meant.meant}")
+        key = (asset, str(program), str(project.labels_and_classes(asset)), f"{by_hand} {meant and meant.meant}")
         if key not in self._outputs:
             self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
         return self._outputs[key]

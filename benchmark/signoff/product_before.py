@@ -109,7 +109,7 @@ def _list_notes(commit: str, reviews: Sequence[Review]) -> Iterator[str]:
         "The person says that a result is wrong, which flags it, and then does what the command proposes: demonstrates "
         "that asset. Where no program fits that, they reply to what is asked, look through the labels there, and "
         "otherwise take the demonstration back. What is flagged or set aside is not right. After labels by hand come "
-        "those by consensus."
+        "those that are propagated."
     )
     yield (
         "*Corrected one by one*: edits shown after a result was called wrong. *Before any look*: when there is the "

@@ -114,7 +114,7 @@ _NOTES = (
     "wrong, and which hulls the rules should have taken there; where a mesh is turned wrongly, or no program fits what "
     "was shown on it, which labels are wrong, after a look at each; where that does not help, the demonstration is "
     "taken back. Where no label is there at the start, the hulls of a mesh that is shown are named by hand; after "
-    "labels by hand come those by consensus.",
+    "labels by hand come those that are propagated.",
     "*k* beside the paper counts demonstrations and corrected results, and in the rows below answers about the program "
     "too, as it does without the queue. A task is right if each person ends with every asset that can be right "
     "signed off, and none that is not; the paper and the sessions without the queue ask for the program alone, on "

@@ -74,7 +74,7 @@ class TerminalClient(Client):
 
     def take_labels(self) -> None:
         if any(mesh.labels for mesh in self.read_meshes().values()):
-            self._call("label", "--with", "consensus")
+            self._call("label", "--with", "propagate")
 
     def _call(self, command: str, *words: str) -> str:
         """What a command prints. Raises MeshForgeError as the command does."""

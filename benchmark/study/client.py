@@ -65,8 +65,8 @@ class TaskClient:
 
     def take_labels(self) -> None:
         """Take the labels that all sources together speak for, where any hull has one."""
-        if any(mesh.labels for mesh in self.read_meshes().values()):
-            self.project.label("consensus")
+        if self.project.vocabulary and any(mesh.labels for mesh in self.read_meshes().values()):
+            self.project.label("propagate")
 
     # What a person sees
 

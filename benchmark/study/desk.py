@@ -13,7 +13,7 @@ from benchmark.study.labels import mislabel, noisy
 from benchmark.tasks import EditResult, Task, task
 from meshforge.language import EXTREMITY, Extractor, Program, Replay, select_mask
 from meshforge.signoff import EditMeasures, measure_edit
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.symbolic import Label, SymbolicMesh, name_class
 from meshforge.synthesis import choose_first_demonstration, memoize
 
 Selections = tuple[frozenset[str], ...]
@@ -68,6 +68,23 @@ class Bench:
         seeds = {name: (seed, *self.task.category.encode(), k) for k, (name, _) in rows}
         told = labels == "telling"
         return Desk(self, {name: noisy(row.mesh, seeds[name], telling=told) for name, row in self.samples.items()})
+
+    @cached_property
+    def classes(self) -> dict[str, dict[str, str]]:
+        """The class of each hull of each mesh that the reference edits: by the rules that take it, or what is made of
+        it as long as that has no label."""
+        program = self.task.program
+        return {name: self._class_hulls(name, self.truth.edit(program, name)) for name in self.samples}
+
+    def _class_hulls(self, name: str, edited: EditResult) -> dict[str, str]:
+        origins = {hull: {hull} for hull in self.samples[name].mesh.index}
+        taken: dict[str, set[int]] = {hull: set() for hull in origins}
+        for rule, line in zip(self.task.program.rules, edited.trace, strict=False):
+            for hull in {old for one in line.selected for old in origins[one]}:
+                taken[hull].add(line.rule)
+            for made, sources in zip(line.made, line.sources, strict=True):
+                origins[made] = set() if rule.label else {old for one in sources for old in origins[one]}
+        return {hull: name_class(rules) for hull, rules in taken.items()}
 
     def _unlabel(self, name: str) -> SymbolicMesh:
         """A mesh before anybody labels it."""

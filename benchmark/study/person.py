@@ -114,7 +114,8 @@ class Person:
 
     def _answers_to(self, desk: Desk, where: tuple[str, int], program: Program) -> Iterator[frozenset[str]]:
         name, place = where[0], where[1] - 1
-        mixed = replace(program, rules=(*program.rules[:place], self._task.program.rules[place]))
+        words = tuple(dict.fromkeys([*program.labels, *self._task.program.labels]))
+        mixed = replace(program, labels=words, rules=(*program.rules[:place], self._task.program.rules[place]))
         for done in (self._truth.reference[name], desk.reference[name], desk.select(mixed, name)):
             if done is not None:
                 yield done[place]

@@ -92,19 +92,20 @@ def open_folder() -> Iterator[Path]:
 
 
 @contextmanager
-def open_project(desk: Desk) -> Iterator[Project]:
+def open_project(desk: Desk, *, unnamed: bool = False) -> Iterator[Project]:
     """A new project of the meshes of a desk, with their labels, in a folder that goes away afterwards.
 
-    The meshes have the names that `name_by_files` gives.
+    The meshes have the names that `name_by_files` gives. unnamed: without a vocabulary, and so without an orientation.
     """
     with open_folder() as folder:
-        yield write_project(desk, folder)
+        yield write_project(desk, folder, unnamed=unnamed)
 
 
-def write_project(desk: Desk, folder: Path) -> Project:
+def write_project(desk: Desk, folder: Path, *, unnamed: bool = False) -> Project:
     """Write the meshes of a desk as files of assets into a folder, and a project of them beside these."""
     one, frame = desk.bench.task, desk.bench.task.program
-    project = create_project(folder, one.name, desk.meshes, frame.labels, frame.orient).with_cache()
+    words, orient = ((), None) if unnamed else (frame.labels, frame.orient)
+    project = create_project(folder, one.name, desk.meshes, words, orient).with_cache()
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
         project.add_template(name, _format_obj(template.shapes).encode())

@@ -104,7 +104,6 @@ class ChairFamily:
     parts: dict[str, list[str]]
 
     def labels(self) -> dict[str, dict[str, str]]:
-        """The labels that are on disk."""
         kept = {asset: self.project.labels(asset).labels for asset in self.truth}
         return {asset: {hull: label.name for hull, label in own.items()} for asset, own in kept.items()}
 

@@ -111,7 +111,6 @@ class Hand:
         return self.page.get_by_role("region", name=name, exact=True)
 
     def sees(self, text: str) -> None:
-        """Wait until a text is seen."""
         self.page.get_by_text(text).first.wait_for(state="visible")
 
     def drawn(self, asset: str | None = None) -> None:

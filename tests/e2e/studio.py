@@ -27,8 +27,6 @@ PATIENCE = 60.0
 
 @dataclass(frozen=True)
 class Studio:
-    """A running studio."""
-
     process: subprocess.Popen[str]
     base: str
     token: str
@@ -56,7 +54,6 @@ class Studio:
 
     @contextmanager
     def page(self) -> Iterator[Page]:
-        """An open page."""
         with connect(self.socket, subprotocols=protocols(self.token), max_size=None) as connection:
             yield Page(connection)
 

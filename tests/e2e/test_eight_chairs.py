@@ -79,7 +79,6 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, brow
 
 
 def labels_of(folder: Path, asset: str) -> dict[str, str]:
-    """The labels of an asset that are on disk."""
     return {hull: label.name for hull, label in Project.open(folder).labels(asset).labels.items()}
 
 

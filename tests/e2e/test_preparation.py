@@ -10,37 +10,16 @@ from playwright.sync_api import Browser
 from meshforge.project import Project
 from tests.e2e.hand import Hand
 from tests.e2e.walk import go_to, visiting
-from tests.mesh_files import CORNER
+from tests.unit.batch.families import obj
+from tests.urdf_sample import corner_obj
 
-STOOL = """
-o seat_1
-v 0 0 1
-v 2 0 1
-v 2 2 1
-v 0 2 1
-v 1 1 1.5
-f 1 3 2
-f 1 4 3
-f 1 2 5
-f 2 3 5
-f 3 4 5
-f 4 1 5
-o leg_1
-v 0.5 0.5 0
-v 1 0.5 0
-v 0.5 1 0
-v 0.5 0.5 1
-f 6 8 7
-f 6 7 9
-f 7 8 9
-f 8 6 9
-"""
+STOOL = obj({"seat_1": ((0, 0, 1), (2, 2, 1.5)), "leg_1": ((0.5, 0.5, 0), (1, 1, 1))})
 
 
 def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: Path, browser: Browser) -> None:
     assets = tmp_path / "assets"
     assets.mkdir()
-    (assets / "corner.obj").write_text(CORNER, encoding="utf-8")
+    (assets / "corner.obj").write_text(corner_obj(), encoding="utf-8")
     (assets / "stool.obj").write_text(STOOL, encoding="utf-8")
     project = Project.create(tmp_path / "project", [assets / "*.obj"], vocabulary=("seat", "leg"))
     with visiting(tmp_path, project, browser) as (_, person):

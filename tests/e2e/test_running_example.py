@@ -166,7 +166,6 @@ def _second_table(person: Hand) -> None:
 
 
 def _repair(person: Hand, studio: Studio) -> None:
-    """Accept that the label is wrong."""
     studio.until(lambda hello: bool(hello["outcome"] and hello["outcome"]["repairs"]))
     person.press("Alt+3")
     card = person.page.get_by_role("region", name=f"{MISLABELLED} of {SECOND} is called")

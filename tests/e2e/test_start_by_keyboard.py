@@ -22,7 +22,6 @@ _FOCUSED = """
 
 
 def reach(person: Hand, name: str) -> None:
-    """Press Tab until a control has the focus."""
     for _ in range(60):
         person.press("Tab")
         if person.page.evaluate(_FOCUSED).strip().startswith(name):

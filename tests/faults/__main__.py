@@ -17,7 +17,6 @@ from tests.faults.killing import KILLING
 
 
 def main() -> int:
-    """Run them."""
     parser = argparse.ArgumentParser(prog="script/faults")
     parser.add_argument("--times", type=int, default=50)
     parser.add_argument("--seed", type=int, default=0)

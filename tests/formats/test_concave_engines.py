@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.formats import convert, read, save
 from tests.loop.command import Done
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.urdf_engines import bullet
 from tests.urdf_sample import corner_obj
 
@@ -86,10 +86,9 @@ def test_pybullet_has_as_many_shapes_before_and_after(tmp_path: Path, between: s
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
+def run(run: Run, tmp_path: Path) -> Run:
     write_arm(tmp_path)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def hulls_of(run: Run, path: str) -> list[str]:

@@ -13,9 +13,8 @@ import pytest
 from meshforge.formats import read, save
 from meshforge.formats.visuals import VisualSurfaces
 from meshforge.symbolic import Asset, Joint
-from tests.conversion_samples import SAMPLES, block, doors, foreign, inertial
+from tests.conversion_samples import block, doors, foreign, inertial
 from tests.corpus_path import corpus
-from tests.mjcf_engines import assert_as_in_mujoco
 from tests.urdf_engines import assert_mujoco_agrees, bullet, yourdf
 
 HINGE, SLIDE, FREE = 3, 2, 0  # mjtJoint
@@ -43,7 +42,6 @@ def joints_of(model: Any, data: Any) -> dict[str, tuple[int, list[float], list[f
 
 
 def masses_of(model: Any, data: Any) -> dict[str, tuple[float, np.ndarray, np.ndarray]]:
-    """Mass, centre and inertia in the world, by body."""
     found = {}
     for k in range(1, model.nbody):
         turn = data.ximat[k].reshape(3, 3)
@@ -69,18 +67,6 @@ def unfused(path: Path) -> Path:
     copy = path.with_name(f"unfused-{path.name}")
     copy.write_bytes(path.read_bytes().replace(b"</robot>", head))
     return copy
-
-
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_mujoco_has_the_geoms_of_a_made_mjcf_where_the_hulls_are(sample: str, tmp_path: Path) -> None:
-    path = save(SAMPLES[sample](), tmp_path / "m.xml").path
-    after = read(path)
-    assert_as_in_mujoco(after, path)
-    model, _ = at_rest(path)
-    colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    planes = sum(piece.plane is not None for piece in after.non_convex)
-    surfaces = sum(piece.surface is not None for piece in SAMPLES[sample]().non_convex)
-    assert int(colliding.sum()) == len(SAMPLES[sample]().geoms) + planes + surfaces
 
 
 def test_a_made_mjcf_has_the_joints_and_masses_of_the_urdf_as_mujoco_reads_it(tmp_path: Path) -> None:
@@ -117,7 +103,7 @@ def test_bullet_and_yourdfpy_have_the_joints_and_masses_of_a_urdf_made_of_an_mjc
         "rail": "prismatic",
         "axle": "continuous",
     }
-    assert assert_mujoco_agrees(path, read(path)) == 1  # MuJoCo drops the names that links share
+    assert_mujoco_agrees(path)
 
 
 def several() -> Asset:
@@ -233,4 +219,4 @@ def test_a_real_table_in_mjcf_loads_in_bullet_with_its_masses(tmp_path: Path) ->
     masses = sorted(mass for mass, _, _ in masses_of(model, data).values())
     assert sorted(d[0] for d in seen["dynamics"] if d[0] > 0) == pytest.approx(masses, rel=1e-6)
     assert sum(len(own) for own in seen["shapes"]) == len(before.geoms)
-    assert_mujoco_agrees(saved.path, read(saved.path))
+    assert_mujoco_agrees(saved.path)

@@ -13,7 +13,7 @@ from tests.loads.comparing import differences
 from tests.loads.readers import DIRECTIONS, READERS, Reader, Seen
 from tests.loads.readers.base import Place, box, capsule, cylinder, ellipsoid, hull
 
-ASSETS = ("cart", "crowd", "cup", "doors", "legs")
+ASSETS = ("cart", "crowd", "cup", "doors", "legs", "opaque", "primitives")
 SUFFIXES = (".urdf", ".xml", ".sdf", ".glb", ".usda", ".obj", ".stl", ".ply", "")
 HERE = ("mujoco", "pybullet", "usd", "trimesh", "yourdfpy", "drake")
 EXACT = Reader("any", "any", "any", {".x": "shape", ".y": "file"}, lambda _: iter(()))
@@ -37,6 +37,8 @@ def test_a_reader_finds_the_shapes_of_each_file_where_meshforge_has_them(name: s
     own = [one for one in files if reader.grain(one.suffix) and not one.has_hidden_hulls]
     assert len(own) > len(ASSETS)
     for one in own:
+        if (one.suffix, one.asset) in reader.limits:
+            continue
         assert differences(one.shapes, found(reader, one.path), reader, one.suffix) == [], one.path
 
 

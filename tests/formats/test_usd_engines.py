@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from meshforge.formats import read, save
-from meshforge.formats.usd.stage import UsdDocument
-from meshforge.geometry import Box, Capsule, Cylinder, Shape, Sphere
+from meshforge.geometry import Box
 from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
-from tests.usd_stages import complaints, physics_shapes
+from tests.loads.comparing import differences, shapes_of
+from tests.loads.readers import READERS
+from tests.usd_stages import complaints
 
 REAL = (
     "cups_mugs/pybullet-URDF-models/orange_cup/model.urdf",
@@ -21,42 +22,12 @@ REAL = (
 )
 
 
-def sizes(told: object) -> list[float]:
-    """The sizes of a native shape as the reader tells them."""
-    names = ("halfExtents", "radius", "halfHeight")
-    return [float(x) for name in names if hasattr(told, name) for x in np.atleast_1d(np.array(getattr(told, name)))]
-
-
-def wanted(shape: Shape) -> list[float]:
-    match shape:
-        case Box():
-            return [float(x) for x in shape.half]
-        case Sphere():
-            return [shape.radius]
-        case Cylinder() | Capsule():
-            return [shape.radius, shape.half_length]
-    return []
-
-
 def agrees(path: Path) -> Asset:
     """The asset in a stage, which USD's reader and its validators agree with."""
-    asset, told = read(path), physics_shapes(path)
+    asset, seen = read(path), list(READERS["usd"].shapes(path))
     assert complaints(path) == []
-    assert len(told) == len(asset.geoms) + len(asset.non_convex)
-    assert isinstance(asset.document, UsdDocument)
-    paths = {name: element.path for element in asset.document.authored for name in element.names}
-    poses = asset.body_poses
-    for geom in asset.geoms:
-        found = told[paths[geom.name]]
-        body = poses[geom.body]
-        middle = body.inverse().apply(_origin(geom.shape)[None])[0] if wanted(geom.shape) else None
-        assert np.allclose(sizes(found), wanted(geom.shape), rtol=1e-5)
-        assert middle is None or np.allclose(np.array(found.localPos), middle, atol=1e-5)
+    assert differences(shapes_of(asset), seen, READERS["usd"], path.suffix) == []
     return asset
-
-
-def _origin(shape: Shape) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    return shape.centroid
 
 
 @pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usdz"])

@@ -17,7 +17,6 @@ _SECONDS, _MEMORY = 120.0, 3 << 30  # for a chunk
 
 
 def main() -> int:
-    """Run them."""
     parser = argparse.ArgumentParser(prog="script/fuzz")
     parser.add_argument("--count", type=int, default=100_000)
     parser.add_argument("--only", choices=sorted(KINDS))

@@ -17,7 +17,6 @@ EXACT = ("polytope", "box", "ellipsoid")  # kinds whose image is exact under any
 
 
 def width(shape: Shape, direction: Floats) -> float:
-    """The value of the support function."""
     return float(shape.support(direction) @ direction)
 
 

@@ -28,7 +28,6 @@ _CLOSED = ("polytope", "box")
 
 
 def middles(grid: Grid) -> Floats:
-    """The middles (n, 3) of all cells."""
     axes = np.meshgrid(*(grid.cell_centers(k) for k in range(3)), indexing="ij")
     return np.stack(axes, axis=-1).reshape(-1, 3)
 

@@ -19,7 +19,6 @@ from tests.loads.rows import Row, row_of, row_of_own
 
 
 def main() -> int:
-    """Run them."""
     given = _arguments()
     with tempfile.TemporaryDirectory() as scratch:
         folder = given.keep or Path(scratch)

@@ -18,6 +18,7 @@ from tests import sdf_sample, urdf_sample, usd_stages
 from tests.conversion_samples import SAMPLES, wedge
 from tests.loads.comparing import shapes_of
 from tests.loads.readers import Seen
+from tests.mesh_files import obj
 
 SUFFIXES = (".urdf", ".xml", ".sdf", ".glb", ".gltf", ".usda", ".usdc", ".usdz", ".obj", ".stl", ".ply", "")
 """Of the formats that are written; the last is a folder of mesh files."""
@@ -138,7 +139,5 @@ def _edited(before: Made) -> Made | Refused:
 def _one_hull(path: Path) -> Path:
     """A sample whose mesh has one piece, and no side like another: engines make one hull of a mesh file."""
     hull = wedge(0.5).tessellate()
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in hull.vertices.tolist()]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in hull.faces.tolist()]
-    (path.parent / "meshes" / "three.obj").write_text("\n".join(lines))
+    (path.parent / "meshes" / "three.obj").write_bytes(obj((hull.vertices, hull.faces)))
     return path

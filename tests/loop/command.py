@@ -20,8 +20,6 @@ _RUN = "from meshforge.cli import main; main()"
 
 @dataclass(frozen=True)
 class Done:
-    """What a command left behind."""
-
     code: int
     out: str
     err: str

@@ -5,15 +5,13 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from meshforge.formats import load
 from tests.corpus_path import corpus
 from tests.loop.command import meshforge_here as meshforge
+from tests.loop.engines import assert_engines_see_hulls
 from tests.loop.labels import write_labels
 from tests.loop.readme import parse_commands
-from tests.mesh_engines import Bullet, bounds, mujoco_hull, objects
 
 CAPS = {
     "bleach_cleanser": (2,),
@@ -66,14 +64,4 @@ def test_a_bottle_of_one_hull_comes_back_byte_for_byte(bottles: Path) -> None:
 
 @pytest.mark.parametrize("name", list(CAPS))
 def test_engines_and_trimesh_see_the_hulls_of_an_edited_bottle(bottles: Path, name: str) -> None:
-    path = bottles / "bottles" / "edited" / f"{name}.obj"
-    after = load(path)
-    box = after.aabb
-    assert box is not None
-    assert len(objects(path)) == len(after.hulls)
-    corners = np.array([box.min, box.max])
-    np.testing.assert_allclose(bounds(path), corners, atol=1e-6)
-    with Bullet(path) as bullet:
-        np.testing.assert_allclose(bullet.bounds, corners, atol=0.021)  # PyBullet adds its margin
-    seen = mujoco_hull(path)
-    np.testing.assert_allclose([seen.min(axis=0), seen.max(axis=0)], corners, atol=1e-6)
+    assert_engines_see_hulls(bottles / "bottles" / "edited" / f"{name}.obj")

@@ -11,7 +11,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import meshforge
@@ -19,9 +18,8 @@ from meshforge.formats import load
 from meshforge.samples import family_of
 from meshforge.symbolic import SymbolicMesh
 from tests.loop.command import meshforge_here
+from tests.loop.engines import assert_engines_keep_masses, assert_engines_see_hulls
 from tests.loop.readme import parse_commands, read_blocks
-from tests.mesh_engines import Bullet, mujoco_hull, objects
-from tests.urdf_engines import bullet, mujoco_model
 
 NOT_RUN = "script/demo"
 """The first word of the block that is not run: a script of a clone, which has tests."""
@@ -143,28 +141,12 @@ def test_every_chair_has_a_box_for_each_leg_and_one_back(folder: Path) -> None:
 
 def test_trimesh_mujoco_and_pybullet_load_the_edited_bottles(folder: Path) -> None:
     for asset in assets("bottles", folder):
-        path = both("bottles", asset, folder)[1]
-        after = load(path)
-        assert after.aabb is not None
-        corners = np.array([after.aabb.min, after.aabb.max])
-        assert len(objects(path)) == len(after.hulls)
-        seen = mujoco_hull(path)
-        np.testing.assert_allclose([seen.min(axis=0), seen.max(axis=0)], corners, atol=1e-6)
-        with Bullet(path) as engine:
-            np.testing.assert_allclose(engine.bounds, corners, atol=0.021)  # PyBullet adds its margin
+        assert_engines_see_hulls(both("bottles", asset, folder)[1])
 
 
 def test_mujoco_and_pybullet_load_the_edited_cups_with_the_masses_they_had(folder: Path) -> None:
     for asset in assets("cups", folder):
-        before, after = both("cups", asset, folder)
-        hulls = len(load(after).hulls)
-        model = mujoco_model(after)
-        assert model.ngeom == hulls
-        np.testing.assert_array_equal(model.body_mass, mujoco_model(before).body_mass)
-        np.testing.assert_array_equal(model.body_inertia, mujoco_model(before).body_inertia)
-        seen = bullet(after)
-        assert [len(shapes) for shapes in seen["shapes"]] == [hulls]
-        assert seen["dynamics"] == bullet(before)["dynamics"]
+        assert_engines_keep_masses(*both("cups", asset, folder))
 
 
 def test_diff_tells_what_became_of_a_bottle(folder: Path) -> None:

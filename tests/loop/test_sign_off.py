@@ -14,15 +14,9 @@ from meshforge.formats import load
 from meshforge.samples import TABLES
 from meshforge.signoff import THRESHOLD
 from tests.loop.mistaken_tables import MEANT, OTHERS, SHOWN, create_project, reply_to
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 MOST_REPLIES = 30
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, Any]]) -> int:

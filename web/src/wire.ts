@@ -705,8 +705,8 @@ export interface CandidateView {
  * One asset in the gallery.
  *
  * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
- * place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
- * a person or a file gave.
+ * place in the vocabulary, -1 for none, -2 for one that is none of the parts; unsure: positions of hulls whose label
+ * is not sure; given: how many labels a person or a file gave.
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
  * changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -970,12 +970,14 @@ export interface ProjectView {
   left_out: string[];
 }
 /**
- * A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place.
+ * A label of the vocabulary, or a class. text: as programs write it; color: `#rrggbb`, by its place; is_class:
+ * whether it stands for hulls that steps take.
  */
 export interface VocabularyLabel {
   name: string;
   text: string;
   color: string;
+  is_class: boolean;
 }
 /**
  * The orientation. text: of the directive, empty for none; sentence: that in words.
@@ -1012,7 +1014,6 @@ export interface NextStep {
     | "decompose"
     | "label-files"
     | "label-names"
-    | "vocabulary"
     | "label"
     | "propagate"
     | "check-labels"

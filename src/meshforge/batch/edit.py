@@ -26,7 +26,7 @@ from meshforge.common import AssetError, UsageError, describe_error, join_names
 from meshforge.geometry import proximity  # noqa: F401  # coal is there when workers are forked
 from meshforge.language import Program, RuleTrace, Template
 from meshforge.signoff import measure_edit
-from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
+from meshforge.symbolic import Asset, LabelTransfer, SymbolicMesh, transfer_labels
 
 _MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
 
@@ -133,7 +133,7 @@ def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | N
 def _run_program(
     task: ApplyTask, job: AssetJob, asset: Asset, inputs: provenance.OutputInputs, started: float
 ) -> outputs.WorkerResult:
-    labels = read_labels(job.labels) if job.labels else LabelFile()
+    labels = job.read_labels()
     followed = transfer_labels(labels, SymbolicMesh.of(asset))
     source = followed.mesh
     result = task.program.run(source, task.templates, selections=selections_of(job.selections, task.program))

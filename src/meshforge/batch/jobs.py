@@ -18,9 +18,11 @@ from meshforge.batch.provenance import (
     program_digest,
     software_version,
     template_digests,
+    value_digest,
 )
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import Plugin, ProgramError, UsageError, pluralize
+from meshforge.symbolic import LabelFile, read_labels
 
 if TYPE_CHECKING:
     from meshforge.batch.preparation.decompose import Concave
@@ -33,7 +35,7 @@ class AssetJob:
     id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels; selections: what a
     person said that rules select there;
     corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before;
-    notes: what its outcome says of that.
+    notes: what its outcome says of that; classes: the file of classes of hulls without a label, None for none.
     """
 
     id: str
@@ -44,6 +46,13 @@ class AssetJob:
     preparation: Path | None = None
     selections: tuple[RuleSelection, ...] = ()
     notes: tuple[str, ...] = ()
+    classes: Path | None = None
+
+    def read_labels(self) -> LabelFile:
+        """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
+        read."""
+        files = (read_labels(path) if path else LabelFile() for path in (self.labels, self.classes))
+        return next(files).fill(next(files))
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +101,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputIn
     return OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
-        labels=content_digest(job.labels) if job.labels else None,
+        labels=_digest_labels(job),
         program=program_digest(task.program),
         templates=template_digests({name: one for name, one in task.templates.items() if name in names}),
         manual_edits=manual_edits_digest(job.manual_edits),
@@ -100,6 +109,14 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputIn
         settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
         software=software_version(_plugins_of(task, job)),
     )
+
+
+def _digest_labels(job: AssetJob) -> str | None:
+    """Of classes their names count alone: how sure they are changes with each answer, and no edit with it."""
+    labels = content_digest(job.labels) if job.labels else None
+    if job.classes is None:
+        return labels
+    return value_digest([labels, {name: label.name for name, label in read_labels(job.classes).labels.items()}])
 
 
 def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
@@ -181,7 +198,7 @@ def describe_jobs(jobs: Sequence[AssetJob]) -> str:
     """Return how many assets there are of what, without reading them: `3 assets (3 OBJ; 0.2 MiB), 2 with labels`."""
     suffixes = (job.path.suffix.lower().lstrip(".").upper() or "folder" for job in jobs)
     kinds = ", ".join(f"{number:,} {kind}" for kind, number in Counter(suffixes).most_common())
-    size, labelled = sum(_size_on_disk(job.path) for job in jobs), sum(job.labels is not None for job in jobs)
+    size, labelled = sum(_size_on_disk(job.path) for job in jobs), sum(bool(job.labels or job.classes) for job in jobs)
     shown = f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
     return f"{pluralize(len(jobs), 'asset')} ({kinds}; {shown}), {labelled:,} with labels"
 

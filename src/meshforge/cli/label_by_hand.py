@@ -14,7 +14,7 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
-from meshforge.store import History
+from meshforge.store import History, list_files
 from meshforge.symbolic import Label, SymbolicMesh
 
 
@@ -47,6 +47,19 @@ def label_by_hand(
         return
     rest = f"{pluralize(bare, 'hull')} of {len(after)} without a label" if bare else "every hull has a label"
     typer.echo(f"{done or f'{escape_name(asset)}: nothing to change'}; {rest}")
+
+
+def rename_labels(project: Project, texts: Sequence[str]) -> None:
+    """Give labels other names, `LABEL=NAME` each, as entries of the history. Raises MeshForgeError for one that is
+    wrong; those before it are done."""
+    for text in texts:
+        old, sign, new = (part.strip() for part in text.partition("="))
+        if not (sign and old and new):
+            raise UsageError(f"--rename {text}: it needs a label and its new name", remedy="Write it so: part_a=leg.")
+        title, paths = f"{old} renamed {new}", [file.path(project.folder) for file in list_files() if file.words]
+        with History(project.folder).record(title, {"old": old, "new": new}, paths):
+            project.rename_label(old, new)
+        typer.echo(title)
 
 
 def _write_labels(

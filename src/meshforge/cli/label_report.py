@@ -31,7 +31,9 @@ _SOURCE_WORDS = {
     "file": "files",
     "name": "names",
     "propagated": "propagation",
-    "consensus": "consensus",
+    "like": "another family",
+    "step": "steps shown",
+    "class": "likeness to steps shown",
     "rebuild": "rebuilt bodies",
     "vlm": "a model",
     "edit": "edits",
@@ -206,7 +208,7 @@ def print_changes(project: Project, labeler: Labeler, result: LabelResult) -> No
         _print_replaced(result)
     for one, other in result.alike:
         words = ",".join(word for word in project.vocabulary if word != other)
-        command = f"meshforge label {project.folder} --with consensus --vocabulary {words}"
+        command = f"meshforge label {project.folder} --with propagate --vocabulary {words}"
         typer.echo(
             f"{one} and {other} are on hulls that look alike, and hardly an asset has both. "
             f"If they are one part, leave one of them out: {command}"

@@ -14,6 +14,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError
+from meshforge.labels import propose_class_names
 from meshforge.project import learn_program, select_assets
 from meshforge.store import MeshCache, Store
 
@@ -79,6 +80,7 @@ def synthesize(given: SynthesizeArguments) -> None:
                 repairs=sum(fix.accepted for fix in feedback.fixes.values()),
                 kept=not given.dry_run,
                 stopped=stopped,
+                classes=propose_class_names(project),
             ),
         )
     raise typer.Exit(int(outcome.program is None))

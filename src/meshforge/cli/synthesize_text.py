@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import assert_never
 
@@ -23,7 +23,7 @@ class LearningContext:
 
     folder: of the project, as a person types it; assets, in_use, readable: how many there are, are learned from,
     and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
-    stopped: whether a person ended the search.
+    stopped: whether a person ended the search; classes: of hulls that steps take, with the names proposed for them.
     """
 
     folder: Path
@@ -34,6 +34,7 @@ class LearningContext:
     repairs: int = 0
     kept: bool = True
     stopped: bool = False
+    classes: Mapping[str, str | None] = field(default_factory=dict)
 
     @property
     def folder_word(self) -> str:
@@ -62,6 +63,7 @@ def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
         lines += [*_describe_suggestion(outcome, "may be meant"), *_describe_agreement(outcome, about)]
+        lines += _describe_classes(about)
         lines += [format_next("left open" if outcome.open_rule else "learned", about.folder)] if about.kept else []
     return "\n".join(lines)
 
@@ -70,6 +72,15 @@ def _describe_inputs(about: LearningContext) -> str:
     parts = [pluralize(about.answers, "answer")] if about.answers else []
     parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
     return f" with {' and '.join(parts)}" if parts else ""
+
+
+def _describe_classes(about: LearningContext) -> Iterator[str]:
+    if not about.classes or not about.kept:
+        return
+    are = "is what a step takes" if len(about.classes) == 1 else "are what steps take"
+    yield f"{join_names([*about.classes], len(about.classes))} {are}, and what looks like it. Name parts when you like:"
+    given = (shlex.quote(f"{name}={word or 'NAME'}") for name, word in about.classes.items())
+    yield f"  meshforge label {about.folder_word} {' '.join(f'--rename {one}' for one in given)}"
 
 
 def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: LearningContext) -> Iterator[str]:

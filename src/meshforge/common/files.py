@@ -38,12 +38,15 @@ def write_atomically(path: Path, content: str | bytes) -> None:
         _fill(draft, content, path)
 
 
-def write_all_atomically(contents: Mapping[Path, str | bytes]) -> None:
+def write_all_atomically(contents: Mapping[Path, str | bytes | None]) -> None:
     """Write whole files as `write_atomically` does each; they wait for the disk together, which takes about as long as
-    one. Where an error comes up before all are written, none is replaced."""
+    one. None removes a file. Where an error comes up before all are written, none is replaced."""
+    written = {path: data for path, data in contents.items() if data is not None}
     with ExitStack() as stack:
-        drafts = [(stack.enter_context(replace_atomically(path)), data, path) for path, data in contents.items()]
+        drafts = [(stack.enter_context(replace_atomically(path)), data, path) for path, data in written.items()]
         do_at_once(lambda row: _fill(*row), drafts)
+    for path in contents.keys() - written.keys():
+        path.unlink(missing_ok=True)
 
 
 def do_at_once(work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:

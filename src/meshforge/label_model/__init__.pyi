@@ -9,6 +9,7 @@ from meshforge.label_model.describe import remember_descriptor as remember_descr
 from meshforge.label_model.odds import LabelBeliefs as LabelBeliefs
 from meshforge.label_model.odds import LabelOdds as LabelOdds
 from meshforge.label_model.odds import is_human as is_human
+from meshforge.label_model.posterior import MOST_LIKELY as MOST_LIKELY
 from meshforge.label_model.posterior import FamilyModel as FamilyModel
 from meshforge.label_model.posterior import FamilyPosterior as FamilyPosterior
 from meshforge.label_model.posterior import model_family as model_family

@@ -16,7 +16,7 @@ from meshforge.geometry import Floats
 from meshforge.label_model.consensus import PERSON
 from meshforge.label_model.lookalikes import PER_MESH
 from meshforge.label_model.posterior import FamilyPosterior, model_family
-from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Hull, SymbolicMesh
+from meshforge.symbolic import CERTAIN_SOURCES, GIVEN_SOURCES, NO_PART, Hull, SymbolicMesh
 
 MAX_ODDS_FOR_FIX = 5.0
 """What may speak for a correction at most; look-alikes err too."""
@@ -71,7 +71,10 @@ class LabelBeliefs:
         shown = list(demonstrated.values())
         others = {name: mesh for name, mesh in batch.items() if not any(_is_same_asset(mesh, other) for other in shown)}
         every = {**demonstrated, **others}
-        self._meshes, self._vocabulary = {name: every[name] for name in sorted(every)}, tuple(vocabulary)
+        self._meshes = {name: every[name] for name in sorted(every)}
+        annotations = (hull.annotation for mesh in self._meshes.values() for hull in mesh.hulls)
+        has_none = any(label and label.name == NO_PART for label in annotations)
+        self._vocabulary = (*vocabulary, NO_PART) if has_none else tuple(vocabulary)
         self._places = {name: place for place, name in enumerate(self._meshes)}
         self._shown = frozenset(demonstrated)
         self._known: dict[tuple[str, str], LabelOdds] = {}
@@ -91,7 +94,7 @@ class LabelBeliefs:
         found = {}
         for name, mesh in self._meshes.items():
             chances = self._over_vocabulary(name, self.posterior.chances)
-            own = [columns.get(hull.label or "") for hull in mesh.hulls]
+            own = [columns.get(hull.label or NO_PART) for hull in mesh.hulls]
             found[name] = sum(
                 1.0 if place is None else _error(hull, float(row[place]))
                 for hull, row, place in zip(mesh.hulls, chances, own, strict=True)
@@ -137,8 +140,8 @@ class LabelBeliefs:
         posterior = self.posterior
         chances = self._over_vocabulary(asset, posterior.by_others if is_human(hull) else posterior.chances)[row]
         by_label = dict(zip(self._vocabulary, chances.tolist(), strict=True))
-        own = by_label.get(hull.label or "", min(by_label.values(), default=1.0))
-        others = [label for label in self._vocabulary if label != hull.label]
+        own = by_label.get(hull.label or NO_PART, min(by_label.values(), default=1.0))
+        others = [label for label in self._vocabulary if label != (hull.label or NO_PART)]
         log_odds = {label: _log_odds(hull, own / by_label[label], len(others)) for label in others}
         odds = {label: max(-MAX_ODDS_FOR_FIX, one) for label, one in log_odds.items()}
         return LabelOdds(hull, odds, self._similar(asset, row))
@@ -174,5 +177,5 @@ def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:
 
 
 def is_human(hull: Hull) -> bool:
-    """Return whether a person gave the label."""
-    return hull.source in HUMAN_SOURCES
+    """Return whether a person gave the label, or showed what the hull is."""
+    return hull.source in CERTAIN_SOURCES

@@ -15,7 +15,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model.describe import ROW_WIDTH
 from meshforge.label_model.lookalikes import Lookalikes, LookalikeSearch
 from meshforge.rendering import UNSURE
-from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, INFERRED_SOURCES, LABEL_SOURCES, Label
+from meshforge.symbolic import CERTAIN_SOURCES, GIVEN_SOURCES, INFERRED_SOURCES, LABEL_SOURCES, Label
 
 Bools = npt.NDArray[np.bool_]
 
@@ -119,7 +119,7 @@ class Observations:
 
     labels: that anything says, and those of a vocabulary, sorted; codes: (n,) the place of what is said among these,
     NO_LABEL where nothing is; confidence: (n,); sources: (n,) the place of the source among LABEL_SOURCES; fixed: (n,)
-    whether a person said it; given: (n,) whether others may be taken from it.
+    whether a person said or showed it; given: (n,) whether others may be taken from it.
     """
 
     labels: tuple[str, ...]
@@ -146,7 +146,7 @@ class Observations:
             np.array([places[one.name] if one else NO_LABEL for one in evidence], dtype=np.int64),
             np.array([one.confidence if one else 0.0 for one in evidence]),
             np.array([LABEL_SOURCES.index(one.source) if one else 0 for one in evidence], dtype=np.int64),
-            np.array([one is not None and one.source in HUMAN_SOURCES for one in evidence], dtype=np.bool_),
+            np.array([one is not None and one.source in CERTAIN_SOURCES for one in evidence], dtype=np.bool_),
             np.array([reference_label(one) is not None for one in evidence], dtype=np.bool_),
         )
 
@@ -177,7 +177,8 @@ def evidence_beside_rebuilt(label: Label | None) -> Label | None:
 
 
 def reference_label(label: Label | None) -> str | None:
-    """Return the label that others may be taken from: a person's, or one of a file that is not unsure."""
-    if label is None or label.source not in GIVEN_SOURCES:
+    """Return the label that others may be taken from: a person's, that of a step, or one of a file that is not
+    unsure."""
+    if label is None or label.source not in GIVEN_SOURCES | CERTAIN_SOURCES:
         return None
-    return label.name if label.source in HUMAN_SOURCES or label.confidence >= UNSURE else None
+    return label.name if label.source in CERTAIN_SOURCES or label.confidence >= UNSURE else None

@@ -68,7 +68,8 @@ class LabelResult:
 
     outcomes: of each asset, in their order; proposals: what a dry run would take; changes: the most frequent first;
     next: the asset that would help most if it were labelled, None: all are, or the labeler does not know; alike: pairs
-    of labels that may be two names of one part; free: hulls whose label no person gave.
+    of labels that may be two names of one part; free: hulls whose label no person gave; notes: what else the user is to
+    know, a sentence each.
     """
 
     outcomes: tuple[LabelOutcome, ...]
@@ -77,11 +78,12 @@ class LabelResult:
     next: str | None = None
     alike: tuple[tuple[str, str], ...] = ()
     free: int = 0
+    notes: tuple[str, ...] = ()
 
 
 def label_project(
     store: Store,
-    by: Labeler | str,
+    by: Labeler | str = "all",
     *,
     vocabulary: Sequence[str] | None = None,
     dry_run: bool = False,
@@ -116,7 +118,7 @@ def label_project(
             run.take(found, report)
     if not dry_run:
         keep_label_source(store, run.outcomes.values(), labeler)
-    return replace(run.result(), next=proposal.next, alike=proposal.alike)
+    return replace(run.result(), next=proposal.next, alike=proposal.alike, notes=proposal.notes)
 
 
 def _count(assets: Iterable[AssetLabels], total: int, what: str, stage: Stage) -> Iterator[AssetLabels]:

@@ -128,14 +128,16 @@ def is_protected(current: Label | None, given: Label) -> bool:
 def infer_over(current: Label | None, given: Label) -> Label:
     """Return a given label; one that was inferred with the evidence on its hull before that."""
     return (
-        replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
+        replace(given, given=given.given or label_model.evidence_of(current))
+        if given.source in symbolic.INFERRED_SOURCES
+        else given
     )
 
 
 def _problem(name: str, label: Label | None, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
     if name not in hulls:
         return f"there is no hull {name!r}{suggest_match(name, hulls)}"
-    if label and label.name not in vocabulary:
+    if label and label.name not in vocabulary and not symbolic.is_class_name(label.name):
         return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_match(label.name, vocabulary)}"
     return None
 
@@ -197,8 +199,8 @@ class LabelWriter:
 
 
 def can_fill_gap(current: Label | None, given: Label | None) -> bool:
-    """Return only hulls without a label get one."""
-    return current is None
+    """Return only hulls without a label get one, or with one that was taken from another family."""
+    return current is None or current.source == "like"
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -9,8 +10,9 @@ from meshforge.common import MeshForgeError, file_state
 from meshforge.labels.from_files.label_by_files import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts, to_label
+from meshforge.labels.names.words import synonyms
 from meshforge.store import AssetFacts, Store, iterate_asset_index
-from meshforge.symbolic import HUMAN_SOURCES, Label, match_labels, read_labels
+from meshforge.symbolic import CLASS_SOURCES, HUMAN_SOURCES, NO_PART, Label, match_labels, read_labels
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,26 @@ class OfferCache:
                 self._known[asset] = state, rows[asset]
         files = tuple(asset for asset, offer in rows.items() if offer.file)
         return LabelOffers(files, {asset: offer.names for asset, offer in rows.items() if offer.names})
+
+
+_AGREEING = 0.5  # of the hulls of a class whose names say a part, those that must say the same one
+
+
+def propose_class_names(store: Store) -> dict[str, str | None]:
+    """Return the classes of a project, each with the part that the names of most of its hulls say; None where they say
+    none, or that of another class too."""
+    votes, words = dict[str, Counter[str]](), tuple(synonyms())
+    for asset, facts in iterate_asset_index(store.found, store.layout, store.layout.classes.ids):
+        classes = store.labels_and_classes(asset).labels
+        for names in () if facts.error else names_of_facts(facts):
+            label = classes.get(names.hull)
+            if label and label.source in CLASS_SOURCES and label.name != NO_PART:
+                found = match_names(names, words)
+                votes.setdefault(label.name, Counter()).update([found.label] if found and found.label else [])
+    best = {name: next(iter(some.most_common(1)), ("", 0)) for name, some in sorted(votes.items())}
+    agreed = {name: word for name, (word, count) in best.items() if count > _AGREEING * votes[name].total()}
+    once = Counter(agreed.values())
+    return {name: word if (word := agreed.get(name)) and once[word] == 1 else None for name in best}
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from meshforge.label_model.describe import describe_mesh
 from meshforge.labels.labeler import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
-from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
+from meshforge.symbolic import CERTAIN_SOURCES, Asset, Label, LabelFile, SymbolicMesh, is_class_name
 
 MOST_COMPARED = 32
 """Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
@@ -56,12 +56,14 @@ class ReferenceFamily:
         return replace(self, meshes=meshes, pieces={n: one for n, one in self.pieces.items() if n != asset})
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
-        """Return the likeliest label of each hull of an asset that has none, by its name, with its probability."""
+        """Return the likeliest label of each hull of an asset that has none, by its name, with its probability; where
+        parts have no names, its class."""
         meshes = [mesh, *self.meshes.values()]
         known = (evidence_beside_rebuilt(hull.annotation) for own in meshes for hull in own.hulls)
-        found = model_family(meshes).infer([label if label and label.name in self.words else None for label in known])
-        rows = zip(mesh.hulls, found.labels(0), strict=True)
-        return {hull.name: label for hull, label in rows if label and not hull.annotation}
+        heard = [one if one and (one.name in self.words or is_class_name(one.name)) else None for one in known]
+        rows = zip(mesh.hulls, model_family(meshes).infer(heard).labels(0), strict=True)
+        guesses = {hull.name: label for hull, label in rows if label and not hull.annotation}
+        return {n: replace(one, source="class") if is_class_name(one.name) else one for n, one in guesses.items()}
 
 
 def read_reference_family(
@@ -78,7 +80,9 @@ def read_reference_family(
     engine: which makes the fine pieces of surfaces; without: assets that do not count; spans: whether their surfaces
     are needed. Raises AssetError where a labels file cannot be read.
     """
-    chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
+    chosen = choose_labelled(
+        {asset: store.labels_and_classes(asset) for asset in store.assets() if asset not in set(without)}
+    )
     meshes = {
         asset: mesh
         for asset, mesh in store.meshes_by_id(chosen)
@@ -109,7 +113,7 @@ def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -
         asset: [label for own in file.labels.values() if (label := evidence_beside_rebuilt(own))]
         for asset, file in files.items()
     }
-    by_people = [asset for asset, labels in observed.items() if any(one.source in HUMAN_SOURCES for one in labels)]
+    by_people = [asset for asset, labels in observed.items() if any(one.source in CERTAIN_SOURCES for one in labels)]
     others = [asset for asset, labels in observed.items() if labels and asset not in set(by_people)]
     chosen = {*pick_evenly(by_people, most)}
     chosen |= {*pick_evenly(others, most - len(chosen))}

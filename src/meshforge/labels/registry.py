@@ -13,7 +13,8 @@ from typing import Any
 from meshforge.batch import WorkerFailure, execute
 from meshforge.common import Plugin, Registry, UsageError, blame, describe_error, suggest_among
 from meshforge.labels.from_files.label_by_files import FileLabeler
-from meshforge.labels.label_by_inference import ConsensusLabeler, PropagationLabeler, SourceRestorer
+from meshforge.labels.label_by_inference import AllLabeler, PropagationLabeler, SourceRestorer
+from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.names.label_by_names import NameLabeler
 from meshforge.labels.vlm.label_by_vlm import VlmLabeler
@@ -21,11 +22,12 @@ from meshforge.store import AssetFiles, hull_digests
 from meshforge.symbolic import Label, SymbolicMesh
 
 _BUILT_IN: tuple[type[Labeler], ...] = (
+    AllLabeler,
     FileLabeler,
     NameLabeler,
     PropagationLabeler,
+    LikeLabeler,
     VlmLabeler,
-    ConsensusLabeler,
     SourceRestorer,
 )
 
@@ -44,6 +46,8 @@ LABELERS: Registry[type[Labeler]] = Registry("labelers", {kind.name: kind for ki
 
 def make_labeler(name: str) -> Labeler:
     """Return a labeler without options. Raises UsageError: not known; PluginError: it cannot be loaded."""
+    if name == "consensus":
+        raise UsageError("--with consensus is a part of --with propagate now", remedy="Use --with propagate.")
     if name not in LABELERS:
         raise UsageError(f"there are no labels from {name!r}", remedy=suggest_among(name, LABELERS, "--with takes"))
     labeler = LABELERS[name]()

@@ -73,7 +73,7 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
             unreadable[asset] = facts.error
             continue
         try:
-            by_hull = match_labels(store.labels(asset), facts.hulls).labels
+            by_hull = match_labels(store.labels_and_classes(asset), facts.hulls).labels
         except MeshForgeError as error:
             unreadable[asset] = error.message
             continue

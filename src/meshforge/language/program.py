@@ -153,7 +153,7 @@ class Program:
 
     def check_has_labels(self, mesh: SymbolicMesh) -> None:
         """Raise ProgramError where it asks for labels and no hull has one."""
-        if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
+        if self.labels_asked and mesh.hulls and not any(hull.annotation for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
             raise ProgramError("no labels, though the program asks for some", remedy=remedy)
 

@@ -10,6 +10,7 @@ from meshforge import batch, label_model, symbolic, synthesis
 from meshforge.project import demonstrations
 from meshforge.project.run import find_accepted_results
 from meshforge.store import Feedback, Store
+from meshforge.symbolic import NO_PART
 
 TEACHES = 0.8
 """A result that was corrected is learned from where the labels of the hulls that differ are right with this
@@ -57,7 +58,7 @@ def list_wrong(
             differing = frozenset[str]().union(*({*was.select} ^ {*now.select} for was, now in pairs))
             rows = zip(mesh.hulls, posterior.chances_of(place), strict=True)
             share = math.prod(
-                float(row[columns[hull.label]]) if hull.label in columns else 0.0
+                float(row[columns[hull.label or NO_PART]]) if (hull.label or NO_PART) in columns else 0.0
                 for hull, row in rows
                 if hull.name in differing or not differing
             )
@@ -68,6 +69,12 @@ def list_wrong(
             elif len(active := [answer for answer in answers if answer.select]) == 1:
                 found += [synthesis.Answer(a.rule, asset, None, [a.select or ()], price) for a in active]
     return found
+
+
+def list_corrected(feedback: Feedback, demos: Mapping[str, synthesis.Demonstration]) -> list[synthesis.Answer]:
+    """Return what a person said that rules should have selected on results that were wrong."""
+    last = {asset: some[-1] for asset, some in feedback.verdicts.items() if asset not in demos}
+    return [answer for asset, one in last.items() if one.meant for answer in _number(demos, asset, one.meant)]
 
 
 def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> list[synthesis.Answer]:

@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
+from meshforge.labels import classes
 from meshforge.project import demonstrations
-from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
+from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, list_wrong, soften, sort_answers
 from meshforge.store import ProgramRecord, Settings, Store
 
 MOST_ASSETS = 400
@@ -177,6 +178,25 @@ def renew_program(
     return outcome, False
 
 
+def update_classes(
+    store: Store, meshes: Mapping[str, symbolic.SymbolicMesh], *, keep: bool = True
+) -> dict[str, symbolic.SymbolicMesh]:
+    """Return meshes by asset with the classes that follow from what was demonstrated and said; those whose classes stay
+    are the same objects. keep: write what changed."""
+    shown = [asset for asset in store.demonstration_ids() if asset in meshes]
+    demos = {asset: synthesis.Demonstration(meshes[asset], store.steps(asset), asset) for asset in shown}
+    if not demos and (program := store.program()) and {*program.labels_asked} & {*classes.class_names(meshes.values())}:
+        return dict(meshes)
+    feedback = store.feedback()
+    fitting, _ = sort_answers(feedback, demos)
+    answers = [*list_accepted(store, demos, fitting), *list_corrected(feedback, demos), *fitting]
+    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
+    found = classes.infer_classes(meshes, demos, answers, store.templates(names))
+    if keep:
+        classes.keep_classes(store, meshes, found)
+    return found
+
+
 Confirm = Callable[[synthesis.Repair], bool]
 
 
@@ -191,12 +211,15 @@ def learn_program(
 ) -> synthesis.LearningOutcome:
     """Learn the program from the demonstrations and from what a person said since.
 
-    accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
+    Where steps take hulls without a label, these get classes, which rules then ask for.
+
+    accept: what is found becomes the project's program, and classes and what `confirm` says of repairs are kept.
     confirm, stop: as of `meshforge.synthesize`.
     meshes: the assets by id, where they are in memory already; else they are read, of very many some.
     Raises ProjectError where nothing is demonstrated.
     """
     meshes = dict(store.meshes_by_id(select_assets(store))) if meshes is None else meshes
+    meshes = update_classes(store, meshes, keep=accept)
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
     feedback = store.feedback()
@@ -224,7 +247,7 @@ def learn_program(
             family=meshes,
             orient=store.orientation,
             templates=templates,
-            vocabulary=settings.vocabulary or None,
+            vocabulary=(*settings.vocabulary, *classes.class_names(meshes.values())) or None,
             options=options,
             confirm=ask,
             answers=answers,

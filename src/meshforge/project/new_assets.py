@@ -19,6 +19,7 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels.classes import format_classes
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.labeler import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
@@ -127,8 +128,12 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
         part = after if is_last else after.with_only(after.steps[:count])
         notes += exchange_preparation(store, asset, part, seen, labels if is_last else None)
         seen = batch.record_digest(store.layout.preparation(asset))
-    if labels := {**found.result.taken, **found.result.guesses}:
+    given = {**found.result.taken, **found.result.guesses}
+    if labels := {name: label for name, label in given.items() if label.source != "class"}:
         LabelWriter(store).write(asset, hull_digests(found.mesh), labels, can_fill_gap)
+    if len(labels) < len(given):
+        with store.lock():
+            store.write_classes({asset: format_classes(found.mesh)})
     return notes
 
 

@@ -14,7 +14,6 @@ StepKind = Literal[
     "decompose",
     "label-files",
     "label-names",
-    "vocabulary",
     "label",
     "propagate",
     "check-labels",

@@ -146,7 +146,7 @@ def _asset_status(
     stamp = output.stamp
     failed = stamp.error if stamp and stamp.status == "failed" else None
     try:
-        file, unreadable = store.labels(job.id), None
+        file, unreadable = store.labels_and_classes(job.id), None
     except MeshForgeError as error:
         file, unreadable = symbolic.LabelFile(), error.message
     homes = symbolic.match_labels(symbolic.LabelFile() if facts.error else file, facts.hulls)

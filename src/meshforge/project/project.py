@@ -88,6 +88,7 @@ class Project(Store):
 
     accept = Store.write_program
     program_state = learn.read_program_state
+    update_classes = learn.update_classes
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule
     work = run.build_work

@@ -1,4 +1,4 @@
-"""Another name for a label, in every file of a project."""
+"""Another name for a label, or a name for a class, in every file of a project."""
 
 from __future__ import annotations
 
@@ -8,33 +8,45 @@ from pathlib import Path
 
 from meshforge import store as files
 from meshforge.batch import action_text
-from meshforge.common import ProgramError, ProjectError, suggest_name, write_atomically
+from meshforge.common import ProgramError, ProjectError, suggest_name, write_all_atomically, write_atomically
 from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sources
+from meshforge.labels.like_reference import read_references
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
 from meshforge.store import Store
-from meshforge.symbolic import LabelFile, format_labels, read_labels
+from meshforge.symbolic import (
+    CERTAIN_SOURCES,
+    Label,
+    LabelFile,
+    format_labels,
+    is_class_name,
+    read_labels,
+    refuse_class_names,
+)
 
 
 def rename_label(store: Store, old: str, new: str) -> None:
-    """Rename a label of the vocabulary in all that the project keeps; labels files beside the assets stay.
+    """Rename a label of the vocabulary in all that the project keeps; labels files beside the assets stay. A class gets
+    a name by it: the hulls that steps took are then labelled by a person, and their likes as propagation labels them.
 
     A file that cannot be read stops it before anything is written. The vocabulary is written last: killed in between,
     every file is whole and says one name or the other, and renaming again completes it, since the vocabulary has the
     old name still. Only that the program was learned from what there is now may be forgotten by that.
-    Raises ProjectError: no such label, the new one is there already, or no program could write it.
+    Raises ProjectError: no such label or class, the new one is there already, or no program could write it;
+    UsageError for a new name that stands for hulls of steps.
     """
     with store.lock():
         settings = store.settings
-        _check_names(store, settings.vocabulary, old, new)
-        texts = dict(_rewrite_files(store, old, new))
+        named = dict(_name_class(store, old, new)) if is_class_name(old) else {}
+        _check_names(store, (*settings.vocabulary, *([old] if named else [])), old, new)
+        texts = dict(_rewrite_files(store, old, new)) | named
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
         fresh = files.edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
         inputs = learn.digest_learning_inputs(store)
         for path, text in texts.items():
-            write_atomically(path, text)
+            write_all_atomically({path: text})
         if program:
             learn.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
         write_atomically(store.layout.settings, fresh)
@@ -45,6 +57,7 @@ def _check_names(store: Store, vocabulary: tuple[str, ...], old: str, new: str) 
     if old not in vocabulary:
         remedy = suggest_name(old, vocabulary, f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
         raise ProjectError(f"there is no label {old!r}", where=where, remedy=remedy)
+    refuse_class_names([new])
     if new in vocabulary:
         remedy = "Choose another name, or give its hulls that label."
         raise ProjectError(f"there is a label {new!r} already", where=where, remedy=remedy)
@@ -60,7 +73,30 @@ def _is_writable(label: str) -> bool:
         return False
 
 
-def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
+def _name_class(store: Store, old: str, new: str) -> Iterator[tuple[Path, str | None]]:
+    """The files of labels in which the hulls of a class have a label, and those of classes without it."""
+    layout = store.layout
+    for asset in layout.classes.ids:
+        classes = read_labels(layout.classes(asset))
+        own = {hull: label for hull, label in classes.labels.items() if label.name == old}
+        if not own:
+            continue
+        file = store.labels(asset)
+        given = {
+            hull: Label(new) if label.source in CERTAIN_SOURCES else Label(new, label.confidence, "propagated")
+            for hull, label in own.items()
+        }
+        labels = {hull: label.rename(old, new) for hull, label in file.labels.items()}
+        words = tuple(dict.fromkeys([*file.vocabulary, new]))
+        yield (
+            layout.labels(asset),
+            format_labels(LabelFile(words, {**given, **labels}, {**classes.digests, **file.digests})),
+        )
+        rest = {hull: label for hull, label in classes.labels.items() if hull not in own}
+        yield layout.classes(asset), format_labels(LabelFile((), rest, classes.digests)) if rest else None
+
+
+def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str | None]]:
     layout = store.layout
     for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)
@@ -75,6 +111,10 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
         yield layout.label_sources, after
+    for name, reference in read_references(store).items():
+        if old in reference.words.values():
+            names = {there: new if here == old else here for there, here in reference.words.items()}
+            yield layout.like(name), reference.model_copy(update={"words": names}).format()
     events = files.load_events(layout)
     now = [_rename_in_event(event, layout.events, old, new) for event in events]
     if now != list(events):
@@ -129,7 +169,7 @@ def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: st
 
 
 def _rename_in_settings(store: Store, settings: files.Settings, old: str, new: str) -> files.Settings:
-    vocabulary = tuple(new if word == old else word for word in settings.vocabulary)
+    vocabulary = tuple(dict.fromkeys([*(new if word == old else word for word in settings.vocabulary), new]))
     before = files.orientation(settings, store.folder)
     after = rename_in_orient(before, old, new) if before else None
     text = settings.orient if after == before else files.orientation_text(after)

@@ -167,10 +167,11 @@ def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice
 
 
 def has_agreed_labels(store: Store) -> bool:
-    """Return whether consensus gave labels, so that those of other hulls may follow what a person says of one."""
-    return any(label.source == "consensus" for asset in store.assets() for label in store.labels(asset).labels.values())
+    """Return whether labels that sources gave were replaced, so that those of other hulls may follow what a person says
+    of one."""
+    return any(label.given for asset in store.assets() for label in store.labels(asset).labels.values())
 
 
 def _agree_again(store: Store) -> None:
     if has_agreed_labels(store):
-        label_project(store, "consensus")
+        label_project(store, "propagate")

@@ -15,7 +15,7 @@ from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
 from meshforge.language import Program
 from meshforge.project.family_state import measure_results, read_family_state
-from meshforge.project.learn import renew_program
+from meshforge.project.learn import renew_program, update_classes
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, review_family
 from meshforge.store import Store
@@ -54,6 +54,9 @@ def review_project(
     if not meshes:
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)
+    classed = update_classes(store, meshes)
+    if any(classed[asset] is not mesh for asset, mesh in meshes.items()):
+        meshes, before = classed, AssessmentBasis.take(store, execution)
     outcome, by_hand = renew_program(store, meshes)
     made = assess_family(store, meshes, outcome, before, threshold, by_hand=by_hand, lost=lost)
     assert made, "nobody stops it"

@@ -33,6 +33,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             store.manual_edits(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
             find_selections(feedback, asset),
+            classes=layout.classes(asset) if layout.classes(asset).exists() else None,
         )
         for asset, path in (store.found if only is None else store.every).choose(only).items()
     )
@@ -54,7 +55,8 @@ def build_work(
     """Return what `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the
     templates.
 
-    Where there is no program, but something is prepared, it is one without rules, which writes what is prepared.
+    Where there is no program, but something is prepared, it is one without rules, which writes what is prepared. Assets
+    without classes get some where the program asks for them.
     Raises ProjectError: no program yet and nothing prepared, or no such asset.
     """
     for asset in only or ():
@@ -63,6 +65,8 @@ def build_work(
     if program is None:
         remedy = f"Learn it: meshforge synthesize {store.folder}"
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
+    if any(map(symbolic.is_class_name, program.labels_asked)):
+        labelling.complete_classes(store)
     away = store.exclusions().keys() - set(only or ())
     jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
     return program, jobs, build_task(store, program).templates

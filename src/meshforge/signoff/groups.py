@@ -118,7 +118,8 @@ def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
 
 
 def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
-    names = Counter(family.state.meshes[asset].hull_of(hull).label or "nothing" for asset, hull in group.hulls)
+    labels_of_group = (family.state.meshes[asset].hull_of(hull).annotation for asset, hull in group.hulls)
+    names = Counter(label.name if label else "nothing" for label in labels_of_group)
     counts = dict(sorted(names.items(), key=lambda one: (-one[1], one[0])))
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))

@@ -11,7 +11,7 @@ from threading import Lock
 from meshforge import symbolic
 from meshforge.batch import read_prepared, record_digest, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
-from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.store.meshes import AssetFiles
 
 MOST_MESHES = 400
 """Meshes in memory; the one that was not asked for longest goes."""
@@ -20,12 +20,12 @@ MOST_MESHES = 400
 @dataclass(frozen=True, eq=False, slots=True)
 class _CacheEntry:
     """An asset as it was read. times: modification [ns] and size of its files; record: the digest of its preparation;
-    contact: the threshold that was set; labels: what their file held; mesh: with these."""
+    contact: the threshold that was set; labels: what its files of labels and classes held; mesh: with these."""
 
     times: FileStates
     record: str | None
     contact: float | None
-    labels: bytes
+    labels: tuple[bytes, ...]
     mesh: symbolic.SymbolicMesh
 
 
@@ -63,7 +63,7 @@ class MeshCache:
                 self._entries[path] = replace(one, mesh=one.mesh.with_hulls(one.mesh.hulls))
 
     def _update(self, files: AssetFiles, cached: _CacheEntry | None) -> _CacheEntry:
-        labels = files.labels.read_bytes() if files.labels.exists() else b""
+        labels = tuple(path.read_bytes() if path.exists() else b"" for path in (files.labels, files.classes))
         record = record_digest(files.preparation)
         is_current = cached and (cached.record, cached.contact) == (record, files.contact)
         if not cached or not is_current or file_states(cached.times) != cached.times:
@@ -74,8 +74,8 @@ class MeshCache:
                 raise error.at(str(files.path)) from None
             mesh = symbolic.SymbolicMesh.of(source)
             mesh = mesh if files.contact is None else replace(mesh, epsilon=files.contact)
-            cached = _CacheEntry(times | file_states(source.files), record, files.contact, b"", mesh)
+            cached = _CacheEntry(times | file_states(source.files), record, files.contact, (b"", b""), mesh)
         if cached.labels == labels:
             return cached
         plain = cached.mesh.with_labels(dict.fromkeys(cached.mesh.index))
-        return replace(cached, labels=labels, mesh=symbolic.transfer_labels(read_labels_file(files.labels), plain).mesh)
+        return replace(cached, labels=labels, mesh=symbolic.transfer_labels(files.read_labels(), plain).mesh)

@@ -214,18 +214,27 @@ def _read_facts(work: _AssetPaths) -> AssetFacts:
 
 @dataclass(frozen=True, slots=True)
 class AssetFiles:
-    """What one asset is read from, in this process or another; contact: the threshold, None for the language's own."""
+    """What one asset is read from, in this process or another.
+
+    classes: what stands where a hull has no label; contact: the threshold, None for the language's own.
+    """
 
     path: Path
     preparation: Path
     labels: Path
+    classes: Path
     contact: float | None
 
     def read_mesh(self) -> symbolic.SymbolicMesh:
         """Return the asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         source = batch.read_prepared(self.path, self.preparation)
-        labelled = symbolic.transfer_labels(read_labels_file(self.labels), symbolic.SymbolicMesh.of(source)).mesh
+        labelled = symbolic.transfer_labels(self.read_labels(), symbolic.SymbolicMesh.of(source)).mesh
         return labelled if self.contact is None else replace(labelled, epsilon=self.contact)
+
+    def read_labels(self) -> symbolic.LabelFile:
+        """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
+        read."""
+        return read_labels_file(self.labels).fill(read_labels_file(self.classes))
 
 
 def read_labels_file(path: Path) -> symbolic.LabelFile:

@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from meshforge import batch, formats, language
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
 from meshforge.store.layout import ATTRIBUTES, invalid_file
+from meshforge.symbolic import refuse_class_names
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -244,6 +245,7 @@ def create_folder(
     """Make a project folder, and give its absolute path. Raises as `Project.create` does."""
     if not str(folder):
         raise UsageError("the folder to make has no name", remedy="Name it; . is the one you are in.")
+    refuse_class_names(vocabulary)
     folder = Path(folder).absolute()
     if (folder / batch.SETTINGS).exists():
         raise ProjectError("there is a project here already", where=str(folder), remedy="Choose another folder.")

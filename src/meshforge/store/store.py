@@ -78,9 +78,18 @@ class Store:
     def orientation(self) -> language.Orient | None:
         return settings_file.orientation(self.settings, self.folder)
 
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The vocabulary, and the classes of hulls that were demonstrated."""
+        files = (read_labels_file(self.layout.classes(asset)) for asset in self.demonstration_ids())
+        classes = {word for file in files for word in file.vocabulary}
+        return (*self.vocabulary, *sorted(classes - set(self.vocabulary)))
+
     def set_vocabulary(self, labels: Sequence[str]) -> None:
-        """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
+        """Set the labels that hulls can have. Raises ProgramError for one that no program could write, UsageError for a
+        name that stands for hulls of steps."""
         language.Program(labels=tuple(labels))  # raises ProgramError
+        symbolic.refuse_class_names(labels)
         with self.lock():
             settings_file.change_setting(self.folder, "vocabulary", tuple(labels))
 
@@ -152,7 +161,10 @@ class Store:
     def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
         """Return what each of some assets is read from, for reading it in another process."""
         layout, contact = self.layout, self.settings.thresholds.contact
-        return tuple(AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), contact) for a in assets)
+        return tuple(
+            AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), layout.classes(a), contact)
+            for a in assets
+        )
 
     def mesh(self, asset: str) -> symbolic.SymbolicMesh:
         """Return an asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
@@ -204,6 +216,14 @@ class Store:
         """Return the labels file of an asset; an empty one where there is none."""
         return read_labels_file(self.layout.labels(asset))
 
+    def labels_and_classes(self, asset: str) -> symbolic.LabelFile:
+        """Return the same with the classes of hulls that have no label."""
+        return self.labels(asset).fill(read_labels_file(self.layout.classes(asset)))
+
+    def write_classes(self, texts: Mapping[str, str | None]) -> None:
+        """Write files of classes, by asset, under the lock that the caller holds; None removes one."""
+        write_all_atomically({self.layout.classes(asset): text for asset, text in texts.items()})
+
     def write_labels(
         self,
         asset: str,
@@ -232,10 +252,7 @@ class Store:
 
     def write_labels_files(self, texts: Mapping[str, str | None]) -> None:
         """Write labels files, by asset, under the lock that the caller holds; None removes one."""
-        write_all_atomically({self.layout.labels(asset): text for asset, text in texts.items() if text is not None})
-        for asset, text in texts.items():
-            if text is None:
-                self.layout.labels(asset).unlink(missing_ok=True)
+        write_all_atomically({self.layout.labels(asset): text for asset, text in texts.items()})
 
     # Demonstrations, and edits by hand
 

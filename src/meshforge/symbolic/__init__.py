@@ -13,7 +13,10 @@ __getattr__, __all__ = export_lazily(
         ),
         "descriptor": "DESCRIPTOR_NAMES descriptors",
         "features": "PRIMITIVE_FEATURES Feature FeatureKind features_of",
-        "hull": "GIVEN_SOURCES HUMAN_SOURCES INFERRED_SOURCES LABEL_SOURCES Hull Label LabelSource",
+        "hull": (
+            "CERTAIN_SOURCES CLASS_SOURCES GIVEN_SOURCES HUMAN_SOURCES INFERRED_SOURCES LABEL_SOURCES NO_PART Hull "
+            "Label LabelSource is_class_name name_class refuse_class_names"
+        ),
         "label_file": (
             "LabelFile LabelTransfer format_labels match_labels parse_labels_text read_labels transfer_labels "
             "write_labels"

@@ -2,19 +2,59 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
-from meshforge.common import import_extra
+from meshforge.common import UsageError, import_extra
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
-LabelSource = Literal["vlm", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin"]
+# fmt: off
+LabelSource = Literal[
+    "vlm", "like", "propagated", "rebuild", "name", "file", "user", "repair", "edit", "plugin", "step", "class",
+]
+# fmt: on
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
-INFERRED_SOURCES = frozenset({"propagated", "consensus"})
+INFERRED_SOURCES = frozenset({"propagated", "class"})
 """Sources of labels that follow from those of other hulls."""
 GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 """Sources of labels that are not guessed: a person, or a file that somebody made."""
+CLASS_SOURCES = frozenset({"step", "class"})
+"""Sources of classes, which stand where a hull has no label: the steps that took it, and those that took its likes."""
+CERTAIN_SOURCES = HUMAN_SOURCES | {"step"}
+"""Sources of labels that follow from what a person said or showed of this hull."""
+NO_PART = "no part"
+"""The name of the label which says that a hull is none of the parts; it is in no vocabulary, and no program asks for
+it."""
+_LETTERS = "abcdefghijklmnopqrstuvwxyz"
+
+
+def name_class(rules: Collection[int]) -> str:
+    """Return the made name of the hulls that rules of some numbers take: `part_a` for those of rule 1, `part_ac` for
+    those of 1 and 3."""
+    if not rules:
+        return NO_PART
+    if max(rules) > len(_LETTERS):
+        return f"part_{'_'.join(map(str, sorted(rules)))}"
+    return f"part_{''.join(_LETTERS[rule - 1] for rule in sorted(rules))}"
+
+
+def is_class_name(label: str) -> bool:
+    """Return whether a label is one that `name_class` makes."""
+    word = label.removeprefix("part_")
+    if label == NO_PART or word == label:
+        return label == NO_PART
+    if all(part.isdecimal() for part in word.split("_")):
+        return True
+    return set(word) <= set(_LETTERS) and list(word) == sorted(set(word)) and bool(word)
+
+
+def refuse_class_names(labels: Iterable[str]) -> None:
+    """Raise UsageError for a label that `name_class` makes."""
+    if made := next(filter(is_class_name, labels), None):
+        remedy = "Choose another name."
+        raise UsageError(f"{made!r} is a name that MeshForge gives to hulls that steps take", remedy=remedy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +104,8 @@ class Hull:
 
     @property
     def label(self) -> str | None:
-        return self.annotation.name if self.annotation else None
+        """Its label, None also where it is known to be none of the parts."""
+        return self.annotation.name if self.annotation and self.annotation.name != NO_PART else None
 
     @property
     def confidence(self) -> float | None:

@@ -13,7 +13,7 @@ from typing import Any
 
 from meshforge.common import AssetError, suggest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
+from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, NO_PART, Label, is_class_name
 from meshforge.symbolic.mesh import SymbolicMesh
 
 _MOST_FILES = 256  # contents of labels files that stay in memory
@@ -34,6 +34,16 @@ class LabelFile:
     def __reduce__(self) -> tuple[Any, ...]:
         return LabelFile, (self.vocabulary, dict(self.labels), dict(self.digests))
 
+    def fill(self, classes: LabelFile) -> LabelFile:
+        """Return the same with the classes of hulls that it says nothing of."""
+        if not classes.labels:
+            return self
+        return LabelFile(
+            tuple(dict.fromkeys([*self.vocabulary, *classes.vocabulary])),
+            MappingProxyType({**classes.labels, **self.labels}),
+            MappingProxyType({**classes.digests, **self.digests}),
+        )
+
 
 def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str:
     """Return the text of the labels of a mesh, in its order, written to `path` unless that is None."""
@@ -46,7 +56,7 @@ def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str
 
 def format_labels(file: LabelFile) -> str:
     """Return the text of a labels file, one hull a line; labels that its vocabulary lacks end that."""
-    labels = [name for label in file.labels.values() for name in label.names]
+    labels = [name for label in file.labels.values() for name in label.names if name != NO_PART]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
     digests = {name: {"digest": known} for name, known in file.digests.items() if known}
     values = {name: _to_json(label) | digests.get(name, {}) for name, label in file.labels.items()}
@@ -147,6 +157,8 @@ def _parse_label(name: str, value: Any, path: Path) -> Label:
     if isinstance(confidence, bool) or not isinstance(confidence, int | float) or not 0.0 <= confidence <= 1.0:
         problem = f"the confidence of hull {name!r} is {confidence!r}, not a number from 0 to 1"
         raise AssetError(problem, where=str(path))
+    if source == "consensus":  # in projects of before
+        source = "propagated"
     if source not in LABEL_SOURCES:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {source!r}", where=str(path), remedy=remedy)
@@ -156,7 +168,7 @@ def _parse_label(name: str, value: Any, path: Path) -> Label:
 def _check_label(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:
     if not label.isprintable():
         raise AssetError(f"the label {label!r} of hull {name!r} is no plain text", where=str(path))
-    if vocabulary and label not in vocabulary:
+    if vocabulary and label not in vocabulary and not is_class_name(label):
         hint = suggest_name(label, vocabulary, f"The vocabulary is: {', '.join(vocabulary)}.")
         raise AssetError(f"the label {label!r} of hull {name!r} is not in its vocabulary", where=str(path), remedy=hint)
 

@@ -78,7 +78,9 @@ class ReplaySet:
         self._unsure = [answer for answer in task.answers if answer.price is not None]
         self._demos = dict(name_demonstrations(task.demos))
         self.shown = [begin_replay(name, demo, frame.orient, frame.contact) for name, demo in self._demos.items()]
-        bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
+        bare = {
+            name for name, mesh in batch.items() if frame.labels and not any(hull.annotation for hull in mesh.hulls)
+        }
         rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
         self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
         rules = range(1, 1 + max((len(demo.steps) for demo in task.demos), default=0))

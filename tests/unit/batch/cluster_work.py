@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
 import time
 
 
@@ -15,14 +14,3 @@ def square_or_worse(number: int) -> int:
     if number == 5:
         time.sleep(600)
     return number * number
-
-
-def slow_square(number: int) -> int:
-    """The square, after a while."""
-    time.sleep(0.1)
-    return number * number
-
-
-def has_ray(_: int) -> bool:
-    """Whether the worker has loaded Ray."""
-    return "ray" in sys.modules

@@ -3,25 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 
-BOX = """\
-o {name}
-v {x0} {y0} {z0}
-v {x1} {y0} {z0}
-v {x1} {y1} {z0}
-v {x0} {y1} {z0}
-v {x0} {y0} {z1}
-v {x1} {y0} {z1}
-v {x1} {y1} {z1}
-v {x0} {y1} {z1}
-f {a1} {a4} {a3} {a2}
-f {a5} {a6} {a7} {a8}
-f {a1} {a2} {a6} {a5}
-f {a2} {a3} {a7} {a6}
-f {a3} {a4} {a8} {a7}
-f {a4} {a1} {a5} {a8}
-"""
+FACES = ((1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8))
 
 Corner = tuple[float, float, float]
 
@@ -33,13 +18,14 @@ Is(leg) => Each(Merge)
 """
 
 
-def obj(boxes: dict[str, tuple[Corner, Corner]]) -> str:
+def obj(boxes: Mapping[str, tuple[Corner, Corner]]) -> str:
     """An OBJ text of named boxes, each given by its lowest and highest corner."""
-    parts = []
-    for k, (name, (low, high)) in enumerate(boxes.items()):
-        corners = dict(zip(("x0", "y0", "z0", "x1", "y1", "z1"), (*low, *high), strict=True))
-        parts.append(BOX.format(name=name, **corners, **{f"a{n}": 8 * k + n for n in range(1, 9)}))
-    return "".join(parts)
+    lines = []
+    for k, (name, ((x0, y0, z0), (x1, y1, z1))) in enumerate(boxes.items()):
+        around = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+        lines += [f"o {name}", *(f"v {x} {y} {z}" for z in (z0, z1) for x, y in around)]
+        lines += ["f " + " ".join(str(8 * k + corner) for corner in face) for face in FACES]
+    return "\n".join(lines) + "\n"
 
 
 def table_boxes(height: float = 1.0) -> dict[str, tuple[Corner, Corner]]:

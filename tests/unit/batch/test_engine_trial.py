@@ -16,7 +16,7 @@ from meshforge.checks import CheckOptions
 from tests.corpus_case import ROOT
 from tests.mjcf_engines import model, put
 from tests.unit.batch.preparation.samples import write_boxes
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 BOX = '<geom type="box" size=".1 .1 .1"/>'
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -45,12 +45,6 @@ ALSO_UNREADABLE = {
     ),
     "an include that is not there": f'<mujoco><include file="gone.xml"/><worldbody>{BOX}</worldbody></mujoco>',
 }
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def refusal(path: Path) -> str | None:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from meshforge.batch import IN_PROCESS, AssetJob, Failed, apply, load_templates
 from meshforge.checks import check
 from meshforge.engines import ENGINES
 from meshforge.formats import list_formats, load, save
-from meshforge.geometry import Aabb, Box, convex_hull
+from meshforge.geometry import Aabb, Box
 from meshforge.language import Program
 from meshforge.symbolic import Hull, Label, SymbolicMesh, write_labels
-from tests.unit.cli.in_process import Run, runner
+from tests.soups import ball
+from tests.unit.cli.in_process import Run
 
 SUFFIXES = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf", "usd": ".usda"}
 ENGINES_OF = {known.name: known.engines for known in list_formats() if known.name in SUFFIXES}
@@ -22,11 +22,7 @@ ACTIONS = (
     *("Merge", "Replace(cylinder)", "Replace(cylinder, native)", "Replace(capsule, native)"),
     *("Replace(sphere, native)", "Scale(all, 0.00001)", 'Each(Replace("ball.obj"))', 'Add(+Z, "ball.obj")'),
 )
-
-
-def ball(vertices: int) -> SymbolicMesh:
-    points = np.random.default_rng(0).normal(size=(vertices, 3))
-    return SymbolicMesh((Hull("ball", "body", convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))),))
+BALL = SymbolicMesh((Hull("ball", "body", ball(300)),))
 
 
 def table() -> SymbolicMesh:
@@ -48,7 +44,7 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
     write_labels(
         labels, mesh.with_hulls(Hull(h.name, h.body, h.shape, Label(names[h.name])) for h in mesh.hulls), ("top", "leg")
     )
-    save(ball(300), tmp_path / "ball.obj")
+    save(BALL, tmp_path / "ball.obj")
     program = Program.parse(f"labels top, leg\nIs(leg) => {action}\n")
     (outcome,) = apply(
         program,
@@ -69,12 +65,8 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
                 assert finding.remedy.split(" that ")[0] in about[0]
 
 
-def test_a_conversion_notes_what_the_engine_of_its_format_refuses(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    run: Run = runner(monkeypatch, capsys)
-    save(ball(300), "ball.obj")
+def test_a_conversion_notes_what_the_engine_of_its_format_refuses(run: Run) -> None:
+    save(BALL, "ball.obj")
     said = "PhysX on the CPU: ball (300): more than 255 vertices; PhysX makes a coarser hull of it. Reduce it"
     assert f"note: {said}" in run("convert", "ball.obj", "ball.usda").err
     assert any(note.startswith(said) for note in run("convert", "ball.obj", "b.usda", "--json").json["notes"])

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import apply, expand, make_jobs
 from meshforge.language import Program
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.urdf_sample import boxes_obj, corner_obj
 
 CUT = '<mesh optimization="convex_decomposition"><uri>{}.obj</uri></mesh>'
@@ -25,12 +25,6 @@ def write_model(folder: Path, *meshes: str) -> Path:
     path = folder / "m.sdf"
     path.write_text(MODEL.format("".join(rows)))
     return path
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 @pytest.mark.parametrize(

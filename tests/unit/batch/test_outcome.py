@@ -2,21 +2,30 @@ from __future__ import annotations
 
 import json
 import pickle
+from pathlib import Path
 
 import pytest
 
 from meshforge.batch import (
+    IN_PROCESS,
     AssetOutcome,
     Failed,
     RuleEffect,
     RunSummary,
     Skipped,
+    apply,
     describe_alarms,
+    expand,
+    make_jobs,
+    read_stamp,
     status_of,
     to_json_line,
 )
 from meshforge.batch.outcome import Edited, Unchanged
+from meshforge.batch.provenance import stamp_path
 from meshforge.language import Program
+from tests.unit.batch import families
+from tests.unit.batch.families import write_tables
 
 RULES = (RuleEffect(1, ("a", "b"), ("a~1",), "two pieces"), RuleEffect(2, ()))
 OUTCOMES: list[tuple[str, AssetOutcome]] = [
@@ -83,3 +92,24 @@ def test_nothing_is_said_of_labels_that_are_not_known() -> None:
     assert summary_of().describe_absent_labels(PROGRAM) == summary_of(ran()).describe_absent_labels(PROGRAM) == []
     old = Skipped("o.obj", "out/o.obj", (), 2, 1, 0.0)
     assert summary_of(ran("leg"), old, ran("top")).describe_absent_labels(PROGRAM) == []
+
+
+def test_a_stamp_keeps_the_measures_and_one_without_them_is_read(tmp_path: Path) -> None:
+    (table,) = write_tables(tmp_path / "assets", 1)
+
+    def run() -> AssetOutcome:
+        jobs = make_jobs(expand([table]))
+        (outcome,) = apply(Program.parse(families.PROGRAM), jobs, tmp_path / "out", execution=IN_PROCESS)
+        return outcome
+
+    outcome = run()
+    assert not isinstance(outcome, Failed) and outcome.measures
+    stamp = read_stamp(tmp_path / "out", outcome.asset)
+    assert stamp and stamp.measures == outcome.measures
+    path = stamp_path(tmp_path / "out", outcome.asset)
+    earlier = json.loads(path.read_text("utf-8"))
+    del earlier["measures"]
+    path.write_text(json.dumps(earlier), "utf-8")
+    skipped = run()
+    assert not isinstance(skipped, Failed) and skipped.measures is None
+    assert summary_of(skipped).find_alarms() == {}

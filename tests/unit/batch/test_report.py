@@ -77,7 +77,6 @@ def tree(page: str) -> Any:
 
 
 def cells(tree: Any, path: str) -> list[list[str]]:
-    """The texts of the cells of each row."""
     return [texts(row, "./*") for row in tree.xpath(path)]
 
 

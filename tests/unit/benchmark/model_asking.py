@@ -66,7 +66,6 @@ def tokens_in(server: Server) -> int:
 
 
 def tokens_out(*answers: str) -> int:
-    """Of some answers."""
     return sum(len(answer) // _TOKEN + 1 for answer in answers)
 
 

@@ -32,7 +32,6 @@ def bench() -> Bench:
 
 @pytest.fixture(scope="module")
 def taught(bench: Bench) -> Session:
-    """A session with two meshes shown."""
     return Session(NAME, TRUE.name, 100, "medium", shown=list(bench.samples)[:2])
 
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark.learning import asking, calibrate, growth, repairs
 from benchmark.learning.boxes import boxes
 from benchmark.learning.cases import cases, learn
 from benchmark.learning.contest import HAS_CVC5
@@ -17,23 +15,7 @@ from benchmark.learning.larger import SHOWN, LargerCases
 from benchmark.learning.program_courses import teach_program
 from benchmark.learning.programs import target_programs
 from benchmark.learning.tables import read_tables, stretch_tables
-from benchmark.report import Result, as_text
 from meshforge.language import size_of
-
-
-def silent(_: str) -> None:
-    """Takes no notice of progress."""
-
-
-@pytest.mark.parametrize(
-    "part", [growth, *(pytest.param(part, marks=pytest.mark.long) for part in (asking, calibrate, repairs))]
-)
-def test_a_part_runs_quickly(part: ModuleType) -> None:
-    result = part.measure(silent, True)
-    assert isinstance(result, Result)
-    assert all(table.rows for table in result.tables)
-    assert all(len(row) == len(table.columns) for table in result.tables for row in table.rows)
-    assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
 
 
 @pytest.mark.long

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import json
+from types import ModuleType
 
-from benchmark.report import Goal, Result, Table, write_lines
+import pytest
+
+from benchmark.learning import asking, calibrate, growth, repairs
+from benchmark.report import Goal, Result, Table, as_text, write_lines
+from benchmark.speed import geometry, load, robots, save
 
 DETAILS = ({"task": "cup-easy", "rounds": [{"answers": 0}, {"answers": 1}], "shown": []}, {"task": "Küche", "f1": 0.1})
 RESULT = Result(
@@ -32,3 +37,18 @@ def test_each_detail_goal_note_and_row_of_a_table_has_a_line() -> None:
     assert '["one",1.5],' in lines
     assert '"a note",' in lines
     assert sum(line.startswith('{"what":') for line in lines) == 1
+
+
+def silent(_: str) -> None: ...
+
+
+LONG = [pytest.param(part, marks=pytest.mark.long) for part in (asking, calibrate, repairs)]
+
+
+@pytest.mark.parametrize("part", [load, robots, save, geometry, growth, *LONG])
+def test_a_part_runs_quickly_and_its_result_is_read_back(part: ModuleType) -> None:
+    result = part.measure(silent, True)
+    assert isinstance(result, Result)
+    assert all(table.rows for table in result.tables)
+    assert all(len(row) == len(table.columns) for table in result.tables for row in table.rows)
+    assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)

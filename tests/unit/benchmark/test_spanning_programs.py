@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
-
 from benchmark.assets import samples
-from benchmark.signoff.point import Point
-from benchmark.signoff.queue import Review
 from benchmark.spanning.family import choose_known
 from benchmark.spanning.programs import (
     open_bench,
@@ -36,8 +31,3 @@ def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_s
     for name in by_hand:
         pairs = zip(meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
         assert all(hull.label == true.label and hull.source == "user" for hull, true in pairs)
-
-
-def row(setting: str, spanning: str, possible: int, right: int) -> dict[str, Any]:
-    review = Review("cup-medium", "", 0, setting, 25, possible, points=[Point(9.0, right, 25, 0, 0, right)])
-    return {"set": setting, "spanning": spanning, "hulls": 1, "review": asdict(review)}

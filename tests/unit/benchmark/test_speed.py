@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from benchmark import __main__ as bench
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import geometry, load, robots, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import one_mesh
 
@@ -28,14 +26,6 @@ def test_all_contestants_find_the_same_contacts_on_the_bundled_tables() -> None:
         assert row["near"] >= row["contacts"]
         assert {who: differ for who, differ in row["differ"].items() if differ} == {}
         assert all(seconds > 0 for seconds in row["seconds"].values())
-
-
-@pytest.mark.parametrize("part", [load, robots, save, geometry])
-def test_a_part_runs_quickly_on_bundled_files(part: ModuleType) -> None:
-    result = part.measure(silent, True)
-    assert isinstance(result, Result)
-    assert all(table.rows for table in result.tables)
-    assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
 
 
 def test_apply_is_run_and_watched(tmp_path: Path) -> None:

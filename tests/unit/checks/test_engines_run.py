@@ -10,6 +10,7 @@ import pytest
 
 from meshforge.engines import ENGINES
 from meshforge.geometry import Aabb, Box
+from tests.mesh_files import obj
 
 
 def compiled(volume: float) -> mujoco.MjModel:
@@ -42,8 +43,7 @@ def test_the_margin_of_bullet_makes_a_hull_at_the_limit_twice_as_thick(tmp_path:
 
     (limit,) = (limit for limit in ENGINES["bullet"].limits if limit.rule == "thin")
     plate = Box.of_bounds(Aabb([-1, -1, 0], [1, 1, limit.number])).tessellate()
-    rows = [f"v {x} {y} {z}" for x, y, z in plate.vertices.tolist()] + [f"f {a} {b} {c}" for a, b, c in plate.faces + 1]
-    (tmp_path / "plate.obj").write_text("\n".join([*rows, ""]))
+    (tmp_path / "plate.obj").write_bytes(obj((plate.vertices, plate.faces)))
     (tmp_path / "plate.urdf").write_text(URDF)
     client = pybullet.connect(pybullet.DIRECT)
     try:

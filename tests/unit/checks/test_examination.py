@@ -7,35 +7,20 @@ import pytest
 
 from meshforge.batch import ReportAsset, ReportHeader, write_report
 from meshforge.checks import CheckOptions, draw_examination, examine_mesh
-from meshforge.geometry import Box
 from meshforge.language import Program
+from tests.cup_project import cup_urdf
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ALL = CheckOptions.of(["mujoco", "fit", "clearance", "physics"])
 
 
-def urdf(filled: bool) -> str:
-    """A cup that is shown by boxes; filled: whether its one collision is the whole."""
-    shapes = [BOTTOM, *WALLS]
-
-    def element(kind: str, box: Box) -> str:
-        x, y, z = box.pose.translation
-        a, b, c = 2 * box.half
-        return f'<{kind}><origin xyz="{x} {y} {z}"/><geometry><box size="{a} {b} {c}"/></geometry></{kind}>'
-
-    shown = "".join(element("visual", shape) for shape in shapes)
-    hulls = "".join(element("collision", shape) for shape in ([WHOLE] if filled else shapes))
-    return f'<robot name="cup"><link name="cup">{shown}{hulls}</link></robot>'
-
-
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    for folder, filled in (("before", False), ("after", True)):
+def run(run: Run) -> Run:
+    for folder, hulls in (("before", (BOTTOM, *WALLS)), ("after", (WHOLE,))):
         Path(folder).mkdir()
-        Path(folder, "cup.urdf").write_text(urdf(filled))
-    return runner(monkeypatch, capsys)
+        Path(folder, "cup.urdf").write_text(cup_urdf(True, hulls))
+    return run
 
 
 def test_all_that_is_asked_for_comes_with_its_findings() -> None:

@@ -7,15 +7,12 @@ import pytest
 
 from meshforge.checks.fit import draw_fit, measure_fit
 from meshforge.checks.legality import find_oddities
-from meshforge.geometry import Aabb, Box, Floats, Shape
+from meshforge.geometry import Floats, Shape
 from meshforge.rendering import LengthUnit
 from meshforge.rendering.colors import HullColors, LegendEntry
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
-
-
-def box(low: list[float], high: list[float]) -> Box:
-    return Box.of_bounds(Aabb(low, high))
+from tests.unit.language.scenes import box
 
 
 def test_hulls_that_fit_stick_out_nowhere_and_leave_nothing_bare() -> None:

@@ -3,19 +3,15 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from meshforge.checks import check, fix
 from meshforge.engines import find_engine
-from meshforge.geometry import Aabb, Box, Polytope, Pose, Shape, convex_hull, polygon_sizes
+from meshforge.geometry import Aabb, Box, Pose, Shape, polygon_sizes
 from meshforge.symbolic import Hull, Label, SymbolicMesh
-from tests.unit.cli.in_process import Run, runner
-
-
-def ball(vertices: int, radius: float = 0.1) -> Polytope:
-    points = np.random.default_rng(0).normal(size=(vertices, 3))
-    return convex_hull(radius * points / np.linalg.norm(points, axis=1, keepdims=True))
+from tests.mesh_files import obj
+from tests.soups import ball
+from tests.unit.cli.in_process import Run
 
 
 def mesh(*shapes: Shape) -> SymbolicMesh:
@@ -26,7 +22,7 @@ def mesh(*shapes: Shape) -> SymbolicMesh:
 
 @pytest.mark.slow
 def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() -> None:
-    before = mesh(ball(300), Box.of_bounds(Aabb([1, 0, 0], [2, 1, 1])))
+    before = mesh(ball(300, 0.1), Box.of_bounds(Aabb([1, 0, 0], [2, 1, 1])))
     fixed = fix(before, find_engine("physx-gpu"))
     (change,) = fixed.changes
     assert (change.hull, change.rules) == ("h0", ("vertices", "polygons"))
@@ -41,7 +37,7 @@ def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() 
 
 @pytest.mark.slow
 def test_what_would_stick_out_too_far_is_left_and_told() -> None:
-    before = mesh(ball(300))
+    before = mesh(ball(300, 0.1))
     fixed = fix(before, find_engine("physx-gpu"), tolerance=0.001)
     assert fixed.mesh is before and not fixed.changes
     assert fixed.left[0].startswith("h0: left as it is, since a hull within the limits would stick out by 0.0")
@@ -49,7 +45,7 @@ def test_what_would_stick_out_too_far_is_left_and_told() -> None:
 
 def test_what_would_come_to_overlap_another_body_is_left() -> None:
     beside = Box.of_bounds(Aabb([0.0995, -1, -1], [1, 1, 1]))
-    around = ball(300).move(Pose.of_translation([-0.0005, 0, 0]))
+    around = ball(300, 0.1).move(Pose.of_translation([-0.0005, 0, 0]))
     fixed = fix(mesh(around, beside), find_engine("unreal"), tolerance=0.1)
     assert fixed.left == ("h0: left as it is, since it would come to overlap h1 of body b1",)
 
@@ -65,7 +61,7 @@ def test_a_hull_that_is_too_thin_is_thickened_to_both_sides() -> None:
 
 
 def test_a_number_of_vertices_is_kept_to_however_far_a_hull_sticks_out() -> None:
-    before = mesh(ball(100), ball(20))
+    before = mesh(ball(100, 0.1), ball(20, 0.1))
     fixed = fix(before, None, max_vertices=24)
     (change,) = fixed.changes
     assert change.hull == "h0" and change.vertices[0] == 100 and change.vertices[1] <= 24
@@ -76,23 +72,21 @@ def test_a_number_of_vertices_is_kept_to_however_far_a_hull_sticks_out() -> None
 
 
 def test_of_two_limits_of_vertices_the_smaller_counts() -> None:
-    fixed = fix(mesh(ball(100)), find_engine("physx-gpu"), max_vertices=24)
+    fixed = fix(mesh(ball(100, 0.1)), find_engine("physx-gpu"), max_vertices=24)
     assert len(fixed.mesh.hulls[0].vertices) <= 24 and len(polygon_sizes(fixed.mesh.hulls[0].shape.tessellate())) <= 64
 
 
 def test_a_mesh_within_the_limits_stays_the_same_object() -> None:
-    before = mesh(ball(20))
+    before = mesh(ball(20, 0.1))
     assert fix(before, find_engine("physx-gpu")).mesh is before
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    hull = ball(300)
-    rows = [f"v {x} {y} {z}" for x, y, z in hull.vertices.tolist()] + [f"f {a} {b} {c}" for a, b, c in hull.faces + 1]
+def run(run: Run) -> Run:
+    hull = ball(300, 0.1)
     Path("in").mkdir()
-    Path("in/ball.obj").write_text("\n".join(["o ball", *rows, ""]))
-    return runner(monkeypatch, capsys)
+    Path("in/ball.obj").write_text("o ball\n" + obj((hull.vertices, hull.faces)).decode())
+    return run
 
 
 @pytest.mark.slow

@@ -10,17 +10,11 @@ from meshforge.common import UsageError
 from meshforge.engines import ENGINES
 from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull, polygon_sizes
 from meshforge.symbolic import Asset, Body, Document, Geom, Hull, SymbolicMesh
+from tests.soups import ball
 
 
 def mesh(*shapes: Shape) -> SymbolicMesh:
     return SymbolicMesh(tuple(Hull(f"h{k}", "body", shape) for k, shape in enumerate(shapes)))
-
-
-def ball(vertices: int) -> Polytope:
-    points = np.random.default_rng(0).normal(size=(vertices, 3))
-    hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    assert len(hull.vertices) == vertices
-    return hull
 
 
 def prism(sides: int) -> Polytope:

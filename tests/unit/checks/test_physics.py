@@ -8,8 +8,6 @@ import pytest
 from meshforge.checks.physics.mechanism import check_masses
 from meshforge.checks.physics.simulation import simulate
 from meshforge.geometry import (
-    Aabb,
-    Box,
     Capsule,
     Cylinder,
     Ellipsoid,
@@ -22,10 +20,7 @@ from meshforge.geometry import (
 )
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
-
-
-def box(low: list[float], high: list[float]) -> Box:
-    return Box.of_bounds(Aabb(low, high))
+from tests.unit.language.scenes import box
 
 
 def solid(mass: float, *shapes: Shape, body: str = "cup") -> Inertial:

@@ -8,19 +8,17 @@ import pytest
 
 from meshforge.formats import load
 from tests.unit.batch.preparation.samples import write_boxes, write_stand
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 HULL = ("--decompose", "hull", "--workers", "1")
 ANSWERS = "There is no program yet: assets are written as they are prepared, and nothing else is edited."
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run) -> Run:
     """Runs the command line in a folder with a project `p` of a URDF with an opaque piece and an OBJ of three hulls."""
-    monkeypatch.chdir(tmp_path)
     write_stand(Path("in"))
     write_boxes(Path("in/row.obj"))
-    run = runner(monkeypatch, capsys)
     assert run("new", "p", "in/stand.urdf", "in/row.obj", "--vocabulary", "a,b").code == 0
     return run
 

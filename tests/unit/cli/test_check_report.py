@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.cup_project import cup_urdf
+from tests.cups import WHOLE
 from tests.unit.batch.families import write_tables
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
-from tests.unit.checks.test_examination import urdf
 from tests.unit.cli.in_process import Run
 
 ODD = "<i>&.obj"
@@ -17,11 +18,10 @@ ODD = "<i>&.obj"
 
 @pytest.fixture
 def run(run: Run) -> Run:
-    """Runs the command line beside a folder of a filled cup, a table and a damaged file."""
     Path("mixed").mkdir()
     write_tables(Path("tables"), 1)
     Path("mixed/good.obj").write_text(Path("tables/table0/model.obj").read_text())
-    Path("mixed/cup.urdf").write_text(urdf(filled=True))
+    Path("mixed/cup.urdf").write_text(cup_urdf(True, [WHOLE]))
     Path("mixed", ODD).write_text("v 1 2\n")
     return run
 

@@ -16,35 +16,17 @@ from PIL import Image
 import meshforge
 from meshforge.cli.main import COMMANDS, load_command
 from meshforge.store import Store
-from tests.unit.batch.families import write_table, write_tables
+from tests.unit.batch.families import obj, write_table, write_tables
 from tests.unit.cli.in_process import Run
 
-CUBE = """\
-o {name}
-v {x} 0 0
-v {x1} 0 0
-v {x1} 1 0
-v {x} 1 0
-v {x} 0 1
-v {x1} 0 1
-v {x1} 1 1
-v {x} 1 1
-f {0} {3} {2} {1}
-f {4} {5} {6} {7}
-f {0} {1} {5} {4}
-f {2} {3} {7} {6}
-f {1} {2} {6} {5}
-f {3} {0} {4} {7}
-"""
+ROW = {"left": ((0, 0, 0), (1, 1, 1)), "middle": ((1, 0, 0), (2, 1, 1)), "far": ((4, 0, 0), (5, 1, 1))}
+BAR = {"bar": ((0, 0, 0), (3, 1, 1))}
 
 
 @pytest.fixture
 def run(run: Run) -> Run:
     """Runs the command line in a folder that holds `row.obj` with labels: three cubes in a row, the last apart."""
-    text = ""
-    for k, (name, x) in enumerate((("left", 0), ("middle", 1), ("far", 4))):
-        text += CUBE.format(*(8 * k + i for i in range(1, 9)), name=name, x=x, x1=x + 1)
-    Path("row.obj").write_text(text)
+    Path("row.obj").write_text(obj(ROW))
     Path("row.labels.json").write_text('{"hulls": {"left": "leg", "middle": "panel", "far": "leg"}}')
     return run
 
@@ -169,8 +151,7 @@ QUICK_VOXELS = ("--no-cache", "--decompose", "vhacd", "--set", "resolution=5000"
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".obj", ".urdf", ".xml", ".sdf", ".usda", ".glb"])
 def test_hulls_by_parts_are_called_by_them_in_every_format_with_names(run: Run, suffix: str) -> None:
-    boxes = [CUBE.format(*(8 * k + i for i in range(1, 9)), name=n, x=2 * k, x1=2 * k + 1) for k, n in enumerate(PARTS)]
-    Path("mug.obj").write_text("".join(boxes))
+    Path("mug.obj").write_text(obj({n: ((2 * k, 0, 0), (2 * k + 1, 1, 1)) for k, n in enumerate(PARTS)}))
     assert run("decompose", "mug.obj", "-o", f"hulls{suffix}", "--by", "parts", *QUICK_VOXELS).code == 0
     names = {hull["name"].rpartition("/")[2] for hull in run("info", f"hulls{suffix}", "--json").json["hulls"]}
     assert names == {"wall_0", "handle_left_0", "part_3_0", "handle_left_1"}
@@ -182,7 +163,7 @@ PARTS = ("wall", "handle left", "3", "handle.left")
 def test_a_mesh_of_several_parts_has_a_note_and_one_without_too_where_they_are_asked_for(run: Run) -> None:
     told = run("decompose", "row.obj", "-o", "hulls.obj", *QUICK_VOXELS)
     assert "--by parts keeps them apart" in told.err
-    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    Path("bar.obj").write_text(obj(BAR))
     assert "no parts are known" in run("decompose", "bar.obj", "-o", "h.obj", "--by", "parts", *QUICK_VOXELS).err
 
 
@@ -199,7 +180,7 @@ def test_advice_compares_settings_and_draws_them(run: Run) -> None:
 
 
 def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
-    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    Path("bar.obj").write_text(obj(BAR))
     told = run("decompose", "bar.obj", "--advise", *QUICK_VOXELS)
     assert "not judged: one solid without named parts" in told.out and len(told.out.splitlines()) == 5
 
@@ -227,7 +208,7 @@ def test_options_of_decompose_that_do_not_fit_are_refused(run: Run, words: tuple
 
 @pytest.mark.slow
 def test_hulls_by_labels_of_points_are_called_by_their_classes(run: Run) -> None:
-    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    Path("bar.obj").write_text(obj(BAR))
     half = np.arange(3000) / 1000
     sides = [np.column_stack([half, half * 7 % 1, np.full(3000, z)]) for z in (0.0, 1.0)]
     points = np.concatenate([*sides, *(side[:, [0, 2, 1]] for side in sides)])
@@ -341,7 +322,7 @@ def test_fmt_prints_the_canonical_form_and_checks_it(run: Run) -> None:
 
 def test_check_tells_legal_from_illegal(run: Run) -> None:
     assert run("check", "row.obj").code == 0
-    _double_the_far_cube()
+    Path("row.obj").write_text(obj({**ROW, "again": ROW["far"]}))
     told = run("check", "row.obj", "--json")
     assert {"far", "again"} <= {name for finding in told.json["findings"] for name in finding["hulls"]}
 
@@ -432,9 +413,3 @@ def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"
     assert run("demonstrate", "rows", "row.obj", "--clear").code == 0
     assert run("demonstrate", "rows", "row.obj").out == ""
-
-
-def _double_the_far_cube() -> None:
-    """Adds a hull `again` that nothing tells from `far`."""
-    with Path("row.obj").open("a") as file:
-        file.write(CUBE.format(*(24 + i for i in range(1, 9)), name="again", x=4, x1=5))

@@ -15,7 +15,6 @@ LEGS = "left_high, left_low, right_high, right_low"
 
 @pytest.fixture
 def run(run: Run, tmp_path: Path) -> Run:
-    """Runs the command line beside a project `p` of two labelled tables; only t1 has what is labelled `misc`."""
     for name in ("t0.obj", "t1.obj"):
         write_table(tmp_path / "assets" / name)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))

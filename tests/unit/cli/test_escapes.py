@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
 import subprocess
 import sys
 from contextlib import redirect_stdout
@@ -17,14 +16,12 @@ from hypothesis import strategies as st
 from meshforge.cli.terminal import escape_output, print_json
 from meshforge.common import MeshForgeError, escape_name, escape_text, quote_path
 from meshforge.project import Project
+from tests.unit.batch.families import obj
 from tests.unit.cli.in_process import Run
 from tests.unit.cli.terminal import Terminal
 
 HULL = "a\x1b]0;owned\x07\x9b31m\u202egpj"
 FILE = "b\x1b[31m\u202e\nc.obj"
-CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
-FACES = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
-SECOND = re.sub(r"\d", lambda one: str(int(one[0]) + 8), FACES)
 CONTROLS = ("\x1b]", "\x1b[31m", "\x07", "\x9b", "\u202e")
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no such file names there")
@@ -35,8 +32,8 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A family of two: one file and its hull are named by somebody who wishes ill."""
     assets = tmp_path / "assets"
     assets.mkdir()
-    (assets / FILE).write_text(f"o {HULL}\n{CUBE}{FACES}o other\n{CUBE.replace('1', '2')}{SECOND}", encoding="utf-8")
-    (assets / "d.obj").write_text(f"o {HULL}\n{CUBE.replace('1', '3')}{FACES}", encoding="utf-8")
+    (assets / FILE).write_text(obj({HULL: ((0, 0, 0), (1, 1, 1)), "other": ((0, 0, 0), (2, 2, 2))}), encoding="utf-8")
+    (assets / "d.obj").write_text(obj({HULL: ((0, 0, 0), (3, 3, 3))}), encoding="utf-8")
     Project.create(tmp_path / "p", [assets / "*.obj"], vocabulary=("leg",))
     (tmp_path / "p/program.mf").write_text("labels leg\n\nAll => Replace(box)\n")
     monkeypatch.chdir(tmp_path)

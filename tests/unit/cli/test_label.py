@@ -35,18 +35,21 @@ def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_loo
     project.set_labels(asset, {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
     told = run("label", "p", "--with", "propagate")
     assert told.code == 0
-    assert f"{asset}: 0 labels taken\n" in told.out
+    assert f"{asset}: 0 labels taken, 6 there already\n" in told.out
     assert told.out.count("6 labels taken") == 2
     assert told.out.splitlines()[-1].startswith("If some are wrong, label or correct this one next: t")
 
 
 @pytest.mark.slow
 def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> None:
-    Project.open(tmp_path / "p").set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
+    Project.open(tmp_path / "p").set_labels(
+        "t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES}
+    )
     told = run("label", "p", "--with", "propagate", "--json").out.splitlines()
-    assert len(told) == 4
-    assert all('"unsure": ' in line for line in told)
-    closing = json.loads(told[-1])
+    assert len(told) == 5
+    assert all('"unsure": ' in line for line in told[:4])
+    closing, last = map(json.loads, told[3:])
+    assert last["next"] in ("t1.obj", "t2.obj")
     assert closing["labels"]["hulls"] == 3 * len(NAMES)
     assert {share["source"] for share in closing["labels"]["shares"]} == {"user", "propagated"}
 
@@ -85,7 +88,7 @@ def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> N
 @pytest.mark.parametrize("source", ["file", "names", "propagate"])
 def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path: Path, source: str) -> None:
     project = Project.open(tmp_path / "p")
-    project.set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
+    project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
     (tmp_path / "assets/t1.obj").write_text("nothing of use")
     for name in ("t1", "t2"):
         (tmp_path / f"assets/{name}.labels.json").write_text('{"hulls": {"top": "top"}}')
@@ -100,7 +103,7 @@ def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path:
 def test_a_damaged_labels_file_costs_its_asset(run: Run, tmp_path: Path) -> None:
     (tmp_path / "assets/t0.labels.json").write_text("{")
     (tmp_path / "assets/t1.labels.json").write_text('{"hulls": {"top": "top"}}')
-    told = run("label", "p")
+    told = run("label", "p", "--with", "file")
     assert told.code == 1
     assert f"t0.obj: 0 labels taken\n    left out: {tmp_path}/assets/t0.labels.json:1:2: the labels are no" in told.out
     assert "t1.obj: 1 label taken" in told.out

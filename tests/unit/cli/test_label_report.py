@@ -38,7 +38,7 @@ def cards(page: Any) -> dict[str, list[str]]:
 
 @pytest.mark.slow
 def test_labels_of_files_with_problems_and_doubts_first(run: Run) -> None:
-    told = run("label", "p", "--report", "r.html")
+    told = run("label", "p", "--with", "file", "--report", "r.html")
     assert told.code == 1 and "report: r.html" in told.err
     page = opened("r.html")
     assert kinds(page) == ["problems", "problems", "doubtful", "labelled"]
@@ -63,11 +63,11 @@ def test_labels_of_files_with_problems_and_doubts_first(run: Run) -> None:
 
 @pytest.mark.slow
 def test_carried_labels_are_shown_with_what_is_unsure(run: Run) -> None:
-    run("label", "p")
+    run("label", "p", "--with", "file")
     told = run("label", "p", "--with", "propagate", "--report", "r.html", "--json")
     lines = {line["asset"]: line for line in map(json.loads, told.out.splitlines()) if "asset" in line}
     page = opened("r.html")
-    assert "Labels of a few assets propagated to all others." in texts(page, "//header/p")[0]
+    assert "The labels that there are, propagated to all other hulls" in texts(page, "//header/p")[0]
     taken = sum(line["taken"] for line in lines.values())
     assert taken and figures(page)["labels taken"] == str(taken)
     assert "without a label" not in figures(page)

@@ -77,7 +77,7 @@ def test_names_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None
 @pytest.mark.slow
 def test_files_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None:
     before = tree(tmp_path / "p")
-    assert told(run("label", "p", "--dry-run").out) == FILES
+    assert told(run("label", "p", "--with", "file", "--dry-run").out) == FILES
     assert {name: data for name, data in tree(tmp_path / "p").items() if "survey" not in name} == before
     done = run("label", "p", "--pattern", "furniture_body=frame")
     assert done.code == 0 and "7120/mobility.urdf: 6 labels taken\n" in done.out
@@ -103,7 +103,7 @@ def test_json_says_the_same(run: Run) -> None:
     }
     assert [row["hulls"] for row in shown["leave"]] == [4]
     assert shown["keep"] == 0 and shown["problems"] == []
-    files = json.loads(run("label", "p", "--dry-run", "--json").out)
+    files = json.loads(run("label", "p", "--with", "file", "--dry-run", "--json").out)
     assert len(files["problems"]) == 2 and {row["kind"] for row in files["take"]} == {"semantics"}
 
 
@@ -120,11 +120,11 @@ def test_segmented_points_are_read_with_the_names_that_are_given(run: Run, tmp_p
     kinds = np.repeat(np.arange(6) % 4, [len(hull.vertices) for hull in mesh.hulls])
     (tmp_path / "out/7119").mkdir(parents=True)
     np.savez(tmp_path / "out/7119/mobility.npz", points=points * 2, labels=kinds)
-    refused = run("label", "p", "--labels", "out", "--dry-run")
+    refused = run("label", "p", "--with", "file", "--labels", "out", "--dry-run")
     assert "nothing names them" in refused.out
-    refused = run("label", "p", "--labels", "out", "--classes", "vocabulary")
+    refused = run("label", "p", "--with", "file", "--labels", "out", "--classes", "vocabulary")
     assert refused.code == 1 and "They would fit with --align box." in refused.out
-    done = run("label", "p", "--labels", "out", "--classes", "vocabulary", "--align", "box")
+    done = run("label", "p", "--with", "file", "--labels", "out", "--classes", "vocabulary", "--align", "box")
     assert done.code == 0 and "7119/mobility.urdf: 6 labels taken\n" in done.out
     assert "1 asset without a labels file" in done.out
 

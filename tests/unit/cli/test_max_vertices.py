@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from meshforge.cli.options import EngineMethod, parse_engine_settings
 from meshforge.common import UsageError
 from meshforge.formats import load
-from meshforge.geometry import CoacdSettings, VhacdSettings, convex_hull
+from meshforge.geometry import CoacdSettings, VhacdSettings
 from tests.loop.command import meshforge
+from tests.mesh_files import obj
+from tests.soups import ball
 
 
 def test_the_engine_is_told() -> None:
@@ -34,12 +35,10 @@ def test_the_number_is_given_once() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ["coacd", "vhacd", "hull"])
 def test_no_hull_has_more(tmp_path: Path, engine: str) -> None:
-    points = np.random.default_rng(0).normal(size=(100, 3))
-    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    lines = [f"v {x} {y} {z}" for x, y, z in ball.vertices] + [f"f {a} {b} {c}" for a, b, c in ball.faces + 1]
-    (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")
+    whole = ball(100)
+    (tmp_path / "ball.obj").write_bytes(obj((whole.vertices, whole.faces)))
     words = ("decompose", "ball.obj", "-o", "out.obj", "--decompose", engine, "--max-vertices", "20")
     meshforge(*words, *(() if engine == "hull" else ("--set", "resolution=2000")), cwd=tmp_path)
     hulls = load(tmp_path / "out.obj").hulls
     assert max(len(hull.vertices) for hull in hulls) <= 20
-    assert sum(hull.volume for hull in hulls) >= 0.99 * ball.volume, "it lies around the ball: no corner is left out"
+    assert sum(hull.volume for hull in hulls) >= 0.99 * whole.volume, "it lies around the ball: no corner is left out"

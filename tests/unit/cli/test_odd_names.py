@@ -45,7 +45,7 @@ def test_its_id_is_text_and_reading_it_names_it(project: Project) -> None:
         ("status project", 0),
         ("label project --with names", 1),
         ("label project --with propagate", 1),
-        ("label project --with consensus", 1),
+        ("label project --with propagate", 1),
         ("label project --with names --json", 1),
         ("check assets", 1),
         ("check assets --json", 1),

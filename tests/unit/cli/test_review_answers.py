@@ -177,15 +177,6 @@ def test_a_group_lists_its_hulls_by_letter() -> None:
     assert [letter_of(place) for place in (0, 25, 26, 51, 52)] == ["a", "z", "aa", "az", "ba"]
 
 
-def test_each_reading_has_a_picture_of_its_own() -> None:
-    assert format_question(READING, [Path("1.png"), Path("2.png")]).splitlines()[1:] == [
-        "  1 Is(leg): 1 hull, left",
-        "    picture: 1.png",
-        "  2 All: 0 hulls",
-        "    picture: 2.png",
-    ]
-
-
 def test_a_demonstration_is_asked_for_with_its_command() -> None:
     assert format_prompt(DEMONSTRATE) == "l later, q stop: "
     assert format_reply_help(DEMONSTRATE, "tables") == (

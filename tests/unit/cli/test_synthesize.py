@@ -26,7 +26,6 @@ LABELS = "labels board, leg, knob\n\n"
 
 
 def timeless(text: str) -> str:
-    """A text without seconds."""
     return re.sub(r"\d+\.\d\d s", "TIME", text)
 
 
@@ -126,7 +125,6 @@ def test_repairs_are_rejected_until_all_is_forgotten(run: Run, tmp_path: Path) -
 
 
 def reply_to_repair(run: Run, choice: int) -> None:
-    """Reply to the question whether the label of a hull is wrong."""
     question = run("review", "racks", "--json").json["question"]
     assert question["kind"] == "repair", question
     run("review", "racks", "--answers", answers({"id": question["id"], "choice": choice}))

@@ -48,7 +48,6 @@ def assert_same_hulls(
 
 
 def written(sample: str, suffix: str, folder: Path) -> Path:
-    """A sample as a file of a format."""
     return save(SAMPLES[sample](), folder / "first" / f"thing{suffix}").path
 
 

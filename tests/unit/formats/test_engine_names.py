@@ -13,18 +13,15 @@ from meshforge.checks import check
 from meshforge.common import AssetError, UsageError
 from meshforge.formats import EngineName, MarkName, read, save
 from meshforge.geometry import Box, Pose, convex_hull
-from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface, SymbolicMesh
+from meshforge.symbolic import Geom, NonConvexPiece, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
+from tests.gltf_edited import names
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors
 from tests.soups import angle, box, together
 from tests.unit.formats.test_marked_convex import write_obj
 
 NAMED: list[tuple[EngineName, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
-
-
-def names(asset: Asset) -> list[str]:
-    return [geom.name for geom in asset.geoms]
 
 
 def made(shape: Box, parent: str) -> Geom:

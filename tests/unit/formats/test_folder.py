@@ -9,7 +9,8 @@ import pytest
 from meshforge.common import AssetError
 from meshforge.formats import labels_beside, read, save
 from meshforge.geometry import convex_hull
-from meshforge.symbolic import Asset, Geom
+from meshforge.symbolic import Geom
+from tests.gltf_edited import names
 from tests.mesh_files import obj, ply, stl_binary, wrl
 from tests.soups import box, together
 
@@ -32,10 +33,6 @@ def _two_groups() -> bytes:
     vertices, faces = together(box(), box((0, 3, 0)))
     lines = obj((vertices, faces)).decode().splitlines()
     return "\n".join(["mtllib a.mtl", *lines[:16], "o grip", *lines[16:28], "o rod", *lines[28:], ""]).encode()
-
-
-def names(asset: Asset) -> list[str]:
-    return [g.name for g in asset.geoms]
 
 
 NAMES = ["base", "handle/grip", "handle/rod", "hull_2#0", "hull_2#1", "hull_2#2", "hull_10"]

@@ -10,6 +10,7 @@ from meshforge.common import AssetError
 from meshforge.formats import load, read, read_triangles, save
 from meshforge.geometry import Capsule, Pose, Shape, Sphere
 from meshforge.symbolic import Asset
+from tests.gltf_edited import names
 from tests.gltf_files import KHR, SceneFile, glb_of, tree_of
 from tests.soups import Soup, angle, box, together, turned
 
@@ -18,10 +19,6 @@ HALF = float(np.sqrt(0.5))
 
 def asset_of(scene: SceneFile, folder: Path, suffix: str = ".glb") -> Asset:
     return read(scene.write(folder / f"a{suffix}"))
-
-
-def names(asset: Asset) -> list[str]:
-    return [geom.name for geom in asset.geoms]
 
 
 def bounds(shape: Shape | None) -> list[list[float]]:

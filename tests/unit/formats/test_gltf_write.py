@@ -13,8 +13,6 @@ from tests.gltf_files import SceneFile, Tree, chunk, glb_of, tree_of
 from tests.gltf_validation import errors
 from tests.soups import Soup, angle, box, together
 
-HALF = float(np.sqrt(0.5))
-
 
 def table() -> SceneFile:
     """A top and legs in one mesh each, a material, and things that no edit touches."""
@@ -117,7 +115,6 @@ def test_other_pieces_go_to_nodes_of_their_own_below_with_materials_and_attribut
 
 
 def with_a_line(scene: SceneFile, soup: Soup) -> int:
-    """A mesh of a surface and a line."""
     line = {"attributes": {"POSITION": scene.accessor(np.array([[0, 0, 0], [9, 9, 9]], "<f4"))}, "mode": 1}
     return scene.mesh(soup, line)
 

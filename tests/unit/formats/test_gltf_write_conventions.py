@@ -14,9 +14,6 @@ from tests.gltf_edited import Edited, brick, names, three_legs
 from tests.gltf_files import KHR, SHAPES, SceneFile
 from tests.soups import angle, box
 
-HALF = float(np.sqrt(0.5))
-
-
 # Unreal
 
 

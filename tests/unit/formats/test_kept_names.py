@@ -9,6 +9,7 @@ import pytest
 
 from meshforge.formats import load, save
 from meshforge.language import Program
+from tests.unit.batch.families import obj
 
 RULE = Program.parse("labels handle\n\nIs(handle) => Each(Replace(sphere))")
 URDF = """<robot name="r"><link name="door">
@@ -28,25 +29,7 @@ MJCF = """<mujoco><worldbody><body name="door">
 <contact><pair geom1="door_handle" geom2="floor"/></contact>
 <sensor><distance geom1="floor" geom2="door_handle" cutoff="9"/></sensor></mujoco>
 """
-OBJ = """o door_handle
-v 0 0 0
-v 1 0 0
-v 0 1 0
-v 0 0 1
-f 1 3 2
-f 1 2 4
-f 2 3 4
-f 3 1 4
-o board
-v 5 0 0
-v 6 0 0
-v 5 1 0
-v 5 0 1
-f 5 7 6
-f 5 6 8
-f 6 7 8
-f 7 5 8
-"""
+OBJ = obj({"door_handle": ((0, 0, 0), (1, 1, 1)), "board": ((5, 0, 0), (6, 1, 1))})
 TEXTS = {"door.urdf": URDF, "door.sdf": SDF, "door.xml": MJCF, "door.obj": OBJ}
 
 

@@ -14,7 +14,7 @@ import trimesh
 from meshforge.formats import read
 from meshforge.geometry import Floats, Ints
 from tests.soups import Soup, angle, box, together
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 
 L_FILLS = "71%"  # 5 of 7: the hull of the L adds half of its inner square
 WORDS = "fills {} of its hull"
@@ -116,10 +116,8 @@ def test_a_mesh_that_is_marked_convex_and_is_open_says_that_its_share_is_not_kno
     assert WORDS.format("an unknown share") in note
 
 
-def test_every_command_says_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path, run = str(unreal(tmp_path, angle())), runner(monkeypatch, capsys)
+def test_every_command_says_it(run: Run, tmp_path: Path) -> None:
+    path = str(unreal(tmp_path, angle()))
     for command in ("info", "check"):
         assert WORDS.format(L_FILLS) in run(command, path).out
         told = json.loads(run(command, path, "--json").out)["notes"]

@@ -14,7 +14,6 @@ from tests.gltf_files import SceneFile
 from tests.soups import box
 from tests.unit.batch.families import obj
 
-Lines = tuple[str, ...]
 URDF = """<robot name="r"><link name="base">
 <visual name="handle-7"><geometry><mesh filename="parts/original-1.obj"/></geometry><material name="brass"/></visual>
 <visual name="front"><geometry><box size="1 2 3"/></geometry></visual>

@@ -29,7 +29,6 @@ def made(asset: Asset, folder: Path) -> tuple[Asset, Any, SaveResult]:
 
 
 def pair(kind: Any = "revolute", **more: Any) -> Asset:
-    """Two bodies with a joint between them."""
     asset = foreign(
         {"base": Pose.identity(), "arm": TURNED},
         [("base/foot", "base", block(0, 0, 0)), ("arm/bone", "arm", Sphere(TURNED, 0.2))],

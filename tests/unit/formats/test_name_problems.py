@@ -11,7 +11,7 @@ from meshforge.engines import Finding
 from meshforge.formats import load, save
 from meshforge.formats.engine_names.conventions import EngineName
 from tests.soups import box
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 from tests.unit.formats.test_marked_convex import write_nodes
 
 
@@ -101,11 +101,9 @@ def test_a_hull_that_an_edit_took_away_is_no_error(tmp_path: Path) -> None:
     assert [one.rule for one in check(left, "unreal")] == []
 
 
-def test_the_command_fails_and_says_what_to_do(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_fails_and_says_what_to_do(run: Run, tmp_path: Path) -> None:
     path = write_nodes(tmp_path / "gate.glb", {"Gate": box(), "UCX_Fence_00": box()})
-    done = runner(monkeypatch, capsys)("check", str(path), "--engine", "unreal")
+    done = run("check", str(path), "--engine", "unreal")
     assert done.code == 1
     assert "error: UCX_Fence_00: no mesh is called Fence, so that in Unreal nothing collides by it" in done.out
     assert "The nearest mesh is Gate: call it UCX_Gate_00." in done.out

@@ -13,6 +13,7 @@ from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Pose, Shape, convex_hull
 from meshforge.symbolic import Asset, Geom
+from tests.gltf_edited import names
 from tests.soups import QUADS, Soup, box
 
 
@@ -34,10 +35,6 @@ def two_legs(first: str = "o left leg\n", second: str = "o right leg\n") -> str:
         f"# a table\nmtllib table.mtl\n{first}{vertex_lines(box())}vn 0 0 1\nusemtl oak\n{quad_lines(1, '{0}//1')}"
         f"# the other\n{second}{vertex_lines(box((3, 0, 0)))}usemtl pine\ns off\n{quad_lines(9, '{0}//1')}"
     )
-
-
-def names(asset: Asset) -> list[str]:
-    return [geom.name for geom in asset.geoms]
 
 
 def made(name: str, parent: str, shape: Shape | None = None) -> Geom:

@@ -22,7 +22,6 @@ from tests.soups import Soup, box, together
 Write = Callable[[Soup], bytes]
 LEGS = together(box(), box((3, 0, 0)), box((6, 0, 0), (1, 1, 2)))
 PLAIN = {kind: KINDS[kind] for kind in KINDS if kind not in ("collada", "gltf", "glb")}
-EDITABLE = {kind: PLAIN[kind] for kind in PLAIN if kind != "vrml"}
 
 
 def put(folder: Path, suffix: str, data: bytes) -> Path:

@@ -11,6 +11,7 @@ import pytest
 from meshforge.common import AssetError, UsageError
 from meshforge.formats import SegmentationFile, decompose, read_parts
 from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, VhacdSettings, sample_surface, separate_parts
+from tests.mesh_files import obj
 
 QUICK = VhacdSettings(resolution=3000, max_convex_hulls=4)
 NAMES = ("panel", "leg")
@@ -33,8 +34,7 @@ POINTS, PLACES = sample_surface(VERTICES, FACES, 4000)
 @pytest.fixture
 def mesh(tmp_path: Path) -> Path:
     path = tmp_path / "table.obj"
-    rows = [*(f"v {x!r} {y!r} {z!r}" for x, y, z in VERTICES.tolist()), *(f"f {a} {b} {c}" for a, b, c in FACES + 1)]
-    path.write_text("\n".join(rows) + "\n")
+    path.write_bytes(obj((VERTICES, FACES)))
     return path
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import meshforge as mf
 from meshforge.formats import is_asset
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="stool" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -96,10 +96,7 @@ def test_without_the_package_the_extra_is_named(tmp_path: Path, monkeypatch: pyt
         mf.load(tmp_path / "stool.xacro")
 
 
-def test_the_command_line_takes_xacro_and_writes_urdf(
-    stool: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    run = runner(monkeypatch, capsys)
+def test_the_command_line_takes_xacro_and_writes_urdf(run: Run, stool: Path, tmp_path: Path) -> None:
     program, out = str(tmp_path / "p.mf"), str(tmp_path / "out")
     assert "base/seat" in run("info", str(stool)).out
     (tmp_path / "p.mf").write_text("All => Delete\n")

@@ -5,13 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.geometry import Aabb, Box, convex_hull, is_convex, overlap_volume
+from meshforge.geometry import convex_hull, is_convex, overlap_volume
 from meshforge.geometry.solids import intersect
 from tests.examples import examples
-
-
-def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Box:
-    return Box.of_bounds(Aabb(low, high))
+from tests.unit.language.scenes import box
 
 
 @pytest.mark.parametrize("low", [(2, 0, 0), (2, 2, 2), (5, 5, 5)])

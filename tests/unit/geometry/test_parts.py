@@ -25,6 +25,7 @@ from meshforge.geometry.decomposition.parts import join_small_parts
 from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles
 from meshforge.geometry.shape import volume_and_centroid
 from meshforge.geometry.surface import heights_above, rises_above
+from tests.soups import together
 
 QUICK = CoacdSettings(threshold=0.3, resolution=200, mcts_iterations=20, mcts_nodes=8)
 VOXELS = VhacdSettings(resolution=20_000, max_convex_hulls=6)
@@ -42,10 +43,8 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> tu
 
 def stack(*boxes: tuple[Floats, Ints]) -> tuple[Floats, Ints, SurfaceParts]:
     """Boxes as one surface, each a part."""
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in boxes)])
-    faces = np.concatenate([own + start for (_, own), start in zip(boxes, starts, strict=False)])
     numbers = np.repeat(np.arange(len(boxes)), [len(own) for _, own in boxes])
-    return np.concatenate([v for v, _ in boxes]), faces, SurfaceParts(numbers, tuple("abcdefgh"[: len(boxes)]))
+    return (*together(*boxes), SurfaceParts(numbers, tuple("abcdefgh"[: len(boxes)])))
 
 
 def welded_l() -> tuple[Floats, Ints, SurfaceParts]:

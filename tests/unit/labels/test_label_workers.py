@@ -22,8 +22,8 @@ NAMES = tuple(table_boxes())
 WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]] = {
     "names": lambda project, spread: project.label("names", execution=spread).outcomes,
     "file": lambda project, spread: project.label("file", execution=spread).outcomes,
+    "all": lambda project, spread: project.label(execution=spread).outcomes,
     "propagate": lambda project, spread: project.label("propagate", execution=spread).outcomes,
-    "consensus": lambda project, spread: project.label("consensus", execution=spread).outcomes,
 }
 
 

@@ -144,7 +144,6 @@ def test_a_native_shape_around_a_needle_has_a_thickness(primitive: str) -> None:
 
 
 def rotation(angle: float) -> Floats:
-    """A turn about Y."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 

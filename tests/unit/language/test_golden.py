@@ -13,7 +13,6 @@ GOLDEN = Path(__file__).parents[2] / "golden"
 
 
 def text_of(path: Path) -> str:
-    """The text with its line ends as they are."""
     return path.read_bytes().decode()
 
 

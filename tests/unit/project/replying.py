@@ -40,7 +40,6 @@ def forgetful(folder: Path) -> Project:
 
 
 def undemonstrated(folder: Path) -> Project:
-    """Racks of which none is shown."""
     project = shown_racks(folder)
     for asset in project.demonstration_ids():
         project.demonstrate(asset, ())

@@ -16,20 +16,17 @@ FIRST, SECOND, THIRD = (f"table{k}/model.obj" for k in range(3))
 
 
 def fresh(folder: Path) -> Project:
-    """A project without labels."""
     write_tables(folder / "assets", 3)
     return Project.create(folder / "tables", [folder / "assets"])
 
 
 def labelled(folder: Path) -> Project:
-    """A project with all labels."""
     project = fresh(folder)
     project.label("file")
     return project
 
 
 def demonstrated(folder: Path) -> Project:
-    """A project with two demonstrations."""
     project = labelled(folder)
     for asset in (FIRST, SECOND):
         project.demonstrate(asset, STEPS)
@@ -37,14 +34,12 @@ def demonstrated(folder: Path) -> Project:
 
 
 def learned(folder: Path) -> Project:
-    """A project with a learned program."""
     project = demonstrated(folder)
     project.synthesize()
     return project
 
 
 def applied(folder: Path) -> Project:
-    """A project with edited assets."""
     project = learned(folder)
     list(project.apply(execution=IN_PROCESS))
     return project

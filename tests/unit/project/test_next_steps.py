@@ -10,27 +10,12 @@ import pytest
 
 from meshforge.project import Project, Status
 from tests.unit.batch.families import label_of, table_boxes, write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.shelves import ambiguous
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
+from tests.urdf_sample import corner_obj
 
 LABELS = {name: label_of(name) for name in table_boxes()}
-CORNERS = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
-FLOOR = ((0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5))
-SIDES = [f"f {k + 1} {(k + 1) % 6 + 1} {(k + 1) % 6 + 7} {k + 7}" for k in range(6)]
-ANGLE = "\n".join(
-    [
-        *("o angle", *(f"v {x} {y} {z}" for z in (0, 1) for x, y in CORNERS), *SIDES),
-        *(f"f {c + 1} {b + 1} {a + 1}\nf {a + 7} {b + 7} {c + 7}" for a, b, c in FLOOR),
-    ]
-)
-"""A closed piece that is not convex."""
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def of(project: Project) -> Status:
@@ -47,12 +32,6 @@ def bare(folder: Path) -> Project:
 def one_labelled(folder: Path) -> Project:
     project = bare(folder)
     project.set_labels("a.obj", LABELS)
-    return project
-
-
-def partly_labelled(folder: Path) -> Project:
-    project = bare(folder)
-    project.set_labels("a.obj", {"top": "top", "crumb": "misc"})
     return project
 
 
@@ -84,7 +63,7 @@ def changed_asset(folder: Path) -> Project:
 def without_hulls(folder: Path) -> Project:
     """A piece that is not convex and has to be decomposed."""
     (folder / "assets").mkdir(parents=True)
-    (folder / "assets/angle.obj").write_text(ANGLE)
+    (folder / "assets/angle.obj").write_text(corner_obj())
     return Project.create(folder / "tables", [folder / "assets"], vocabulary=["top"])
 
 
@@ -102,17 +81,17 @@ def open_rule(folder: Path) -> Project:
 
 
 STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
-    "labels files beside the assets": (fresh, "label tables --with file", (0,)),
-    "names that say labels": (one_named, "label tables --with names", (0,)),
-    "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
+    "labels files beside the assets": (fresh, "label tables", (0,)),
+    "names that say labels": (one_named, "label tables", (0,)),
+    "one asset labelled": (one_labelled, "label tables", (0,)),
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
     "an open question": (open_rule, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
     "applied": (applied, "review tables", (0, 1)),
     "signed off": (signed_off, "check tables/edited", (0,)),
     "an asset changed": (changed_asset, "apply tables", (0,)),
-    "a new asset": (new_asset, "label tables --with propagate", (0,)),
-    "a new asset with a labels file": (new_asset_with_labels, "label tables --with file", (0,)),
+    "a new asset": (new_asset, "label tables", (0,)),
+    "a new asset with a labels file": (new_asset_with_labels, "label tables", (0,)),
     "pieces to be decomposed": (without_hulls, "prepare tables --decompose coacd", (0,)),
 }
 """How each is made, the command that is proposed, and the exit codes that mean it did what it should."""
@@ -133,14 +112,11 @@ def test_what_is_proposed_works_and_something_else_is_proposed_then(state: str, 
         assert of(project).next != advice
 
 
-@pytest.mark.parametrize(("make", "hull"), [(bare, "top"), (partly_labelled, "left_low")])
-def test_by_hand_the_proposed_command_needs_but_the_label(
-    make: Callable[[Path], Project], hull: str, tmp_path: Path, run: Run
-) -> None:
-    project = make(tmp_path)
-    project.set_vocabulary(("panel", "leg", "misc", "top") if make is partly_labelled else ("panel", "leg", "misc"))
+def test_by_hand_the_proposed_command_needs_but_the_label(tmp_path: Path, run: Run) -> None:
+    project = bare(tmp_path)
+    project.set_vocabulary(("panel", "leg", "misc"))
     command = of(project).next.command
-    assert command == f"meshforge label tables a.obj '{hull}=LABEL'"
+    assert command == "meshforge label tables a.obj 'top=LABEL'"
     before = sum(asset.labelled for asset in of(project).assets)
     assert run(*shlex.split(command.replace("LABEL", "leg"))[1:]).code == 0
     assert sum(asset.labelled for asset in of(project).assets) == before + 1

@@ -41,7 +41,6 @@ def fresh(folder: Path) -> Project:
 
 
 def decomposed(folder: Path) -> Project:
-    """The same with hulls for all."""
     project = fresh(folder)
     assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [2, 2]
     return project

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -33,9 +34,17 @@ def test_a_project_is_not_made_twice(tmp_path: Path) -> None:
         Project.create(project.folder, [tmp_path / "assets"])
 
 
-def test_a_folder_without_a_project_says_how_to_make_one(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="meshforge new"):
-        Project.open(tmp_path)
+@pytest.mark.parametrize(
+    ("act", "said"),
+    [
+        (Project.open, "meshforge new"),
+        (lambda folder: fresh(folder).apply(), "meshforge synthesize"),
+        (lambda folder: labelled(folder).synthesize(), "nothing is demonstrated"),
+    ],
+)
+def test_what_is_missing_is_said_with_what_to_do(tmp_path: Path, act: Callable[[Path], object], said: str) -> None:
+    with pytest.raises(ProjectError, match=said):
+        act(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -149,11 +158,6 @@ def test_a_damaged_demonstration_is_named(tmp_path: Path, text: str, message: st
     assert str(path) in caught.value.message
 
 
-def test_learning_without_demonstrations_says_what_to_do(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="nothing is demonstrated"):
-        labelled(tmp_path).synthesize()
-
-
 def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
     project = applied(tmp_path)
     edited = project.folder / "edited"
@@ -165,11 +169,6 @@ def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
     }
     assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 3
     assert [word(o) for o in project.apply(execution=IN_PROCESS, out=tmp_path / "else")] == ["edited"] * 3
-
-
-def test_applying_without_a_program_says_what_to_do(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="meshforge synthesize"):
-        fresh(tmp_path).apply()
 
 
 def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:

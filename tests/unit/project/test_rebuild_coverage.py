@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from meshforge.project import RebuildSettings
-from tests.surface_cover import merge_solids, sample_lost
+from tests.soups import merge_solids
+from tests.surface_cover import sample_lost
 from tests.unit.project.stools import boxes, coarse, create_stools
 
 SIZES = {"a": (0.2, 0.4), "b": (0.22, 0.45), "c": (0.18, 0.5)}

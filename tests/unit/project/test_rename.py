@@ -64,10 +64,10 @@ def test_what_an_inferred_label_replaced_is_renamed_too(tmp_path: Path) -> None:
     for asset in (FIRST, SECOND):
         project.set_labels(asset, {"crumb": None})
         project.set_labels(asset, {"crumb": "leg"}, source="vlm", confidence=0.5)
-        project.set_labels(asset, {"crumb": "misc"}, source="consensus", confidence=0.9)
+        project.set_labels(asset, {"crumb": "misc"}, source="propagated", confidence=0.9)
     project.confirm(LabelFix(FIRST, "crumb", "misc", "top"))
     project.rename_label("leg", "foot")
-    now = Label("misc", 0.9, "consensus", Label("foot", 0.5, "vlm"))
+    now = Label("misc", 0.9, "propagated", Label("foot", 0.5, "vlm"))
     assert project.labels(SECOND).labels["crumb"] == now
     assert project.take_back(f"{FIRST}#crumb=top") is None
     assert project.labels(FIRST).labels["crumb"] == now

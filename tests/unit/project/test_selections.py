@@ -134,11 +134,11 @@ def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(
     project = applied(tmp_path)
     project.set_labels(FIRST, {"top": "top"})
     before = kept(project)
-    known = {"top#0": Label("leg", 0.9, "consensus"), "top#1": Label("top", 0.8, "consensus")}
+    known = {"top#0": Label("leg", 0.9, "propagated"), "top#1": Label("top", 0.8, "propagated")}
     after = batch.cut_hull(read(project.path(FIRST)), batch.Preparation(), "top", (1, 0, 0), (1, 0, 0))
     exchange_preparation(project, FIRST, after, None, known)
     labels = project.mesh(FIRST).labels
-    assert labels["top#0"] == Label("leg", 0.9, "consensus")
+    assert labels["top#0"] == Label("leg", 0.9, "propagated")
     assert labels["top#1"] == Label("top", 1.0, "user")
     project.unprepare(FIRST)
     assert kept(project) == before

@@ -38,13 +38,13 @@ def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed
 def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_path: Path) -> None:
     write_table(tmp_path / "assets/t.obj", labels=False)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"])
-    assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL' --vocabulary a,b,c"
+    assert of(project).next.command == f"meshforge demonstrate {project.folder} t.obj 'HULLS => ACTION' ..."
     project.set_vocabulary(("panel", "leg"))
     assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL'"
     project.set_vocabulary(("top", "leg"))
     advice = of(project).next
     assert advice.text == "The names of 1 hull contain a label: take their labels."
-    assert advice.command == f"meshforge label {project.folder} --with names"
+    assert advice.command == f"meshforge label {project.folder}"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
 

@@ -21,7 +21,6 @@ from tests.unit.rendering.scenes import box, hull, table
 
 
 def row(count: int) -> SymbolicMesh:
-    """Cubes in a row, each touching the next."""
     return SymbolicMesh(tuple(hull(f"h{k}", box((k, 0, 0), (1, 1, 1))) for k in range(count)))
 
 

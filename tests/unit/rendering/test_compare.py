@@ -52,7 +52,6 @@ def test_before_and_after_stand_side_by_side_with_words_below() -> None:
 
 
 def row() -> SymbolicMesh:
-    """Three cubes side by side."""
     return SymbolicMesh(tuple(hull(name, box((x, 0, 0), (1, 1, 1))) for name, x in (("a", -2), ("b", 0), ("c", 2))))
 
 

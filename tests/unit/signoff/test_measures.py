@@ -5,17 +5,14 @@ from math import isfinite
 import numpy as np
 import pytest
 
-from meshforge.geometry import Aabb, Box, Polytope, Shape
+from meshforge.geometry import Polytope, Shape
 from meshforge.signoff.outliers import EditMeasures, measure_edit
 from meshforge.symbolic import Hull, SymbolicMesh
+from tests.unit.language.scenes import box
 
 FLAT = Polytope(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 1]]))
 """Two sides of one triangle: closed, and without a volume."""
 LINE = Polytope(np.array([[0, 0, 0], [1, 1, 1], [2, 2, 2]]), np.array([[0, 1, 2], [0, 2, 1]]))
-
-
-def brick(low: tuple[float, float, float], high: tuple[float, float, float]) -> Box:
-    return Box.of_bounds(Aabb(low, high))
 
 
 def mesh(**shapes: Shape) -> SymbolicMesh:
@@ -25,7 +22,7 @@ def mesh(**shapes: Shape) -> SymbolicMesh:
 def table() -> SymbolicMesh:
     """A top and two legs in a box of 2 by 1 by 1."""
     return mesh(
-        top=brick((0, 0, 0.9), (2, 1, 1)), left=brick((0, 0, 0), (0.1, 1, 0.9)), right=brick((1.9, 0, 0), (2, 1, 0.9))
+        top=box((0, 0, 0.9), (2, 1, 1)), left=box((0, 0, 0), (0.1, 1, 0.9)), right=box((1.9, 0, 0), (2, 1, 0.9))
     )
 
 
@@ -39,7 +36,7 @@ def test_an_edit_that_changes_nothing() -> None:
 
 
 def test_one_block_fills_all_free_space() -> None:
-    found = measure_edit(table(), mesh(block=brick((0, 0, 0), (2, 1, 1))))
+    found = measure_edit(table(), mesh(block=box((0, 0, 0), (2, 1, 1))))
     assert (found.filled, found.freed, found.removed) == (1, 0, 1)
     assert found.volume_after / found.volume_before == pytest.approx(2 / 0.38)
 

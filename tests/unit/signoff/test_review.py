@@ -63,7 +63,6 @@ def legs_of(name: str) -> frozenset[str]:
 
 
 def shown(meshes: Mapping[str, SymbolicMesh], *names: str) -> dict[str, Demonstration]:
-    """Some meshes with their legs deleted."""
     return {name: Demonstration(meshes[name], [Step(1, legs_of(name), Delete())], name) for name in names}
 
 
@@ -81,12 +80,10 @@ def review(state: ReviewState, bar: float = THRESHOLD) -> Assessment:
 
 
 def snooze(state: ReviewState, question: ReviewQuestion) -> ReviewState:
-    """What is known when a question was put off."""
     return replace(state, snoozed=state.snoozed | {question.id})
 
 
 def accept(state: ReviewState, asset: str, *done: frozenset[str]) -> ReviewState:
-    """What is known when a person found a result right."""
     return replace(state, accepted=state.accepted | {asset}, meant={**state.meant, asset: done})
 
 

@@ -9,10 +9,8 @@ from meshforge.studio.learning.queue import CancelToken
 
 
 def die(folder: Path, token: CancelToken) -> None:
-    """End the process."""
     os._exit(3)
 
 
 def echo(folder: Path, token: CancelToken, number: int) -> int:
-    """Return a number."""
     return number

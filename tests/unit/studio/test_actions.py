@@ -45,8 +45,6 @@ class Vector(ArgumentType):
 
 
 class Plain(Action):
-    """Leaves hulls as they are."""
-
     __slots__ = ()
 
     def edit(self, group: HullGroup) -> GroupEdit:
@@ -66,8 +64,6 @@ class Contract(Plain):
 
 @dataclass(frozen=True, slots=True)
 class Move(Plain):
-    """Moves hulls."""
-
     by: tuple[float, ...] = field(metadata={"argument": Vector()})
 
 

@@ -88,13 +88,6 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     assert files_of(project) == before
 
 
-def found_since(project: Project) -> tuple[str, ...]:
-    """What was found of the third asset since it was signed off, which it still is."""
-    third = next(one for one in project.status().assets if one.id == THIRD)
-    assert third.sign_off == "signed off"
-    return third.found_since
-
-
 def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(
     tmp_path: Path, flag: CancelFlag
 ) -> None:

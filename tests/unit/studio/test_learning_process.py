@@ -48,7 +48,6 @@ def flag() -> Iterator[CancelFlag]:
 
 @pytest.fixture
 def own(tmp_path: Path) -> Project:
-    """A project to be changed."""
     return demo_project(tmp_path)
 
 

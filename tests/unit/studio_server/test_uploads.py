@@ -18,8 +18,6 @@ Result = TypeVar("Result")
 
 
 class InProcess(Workers):
-    """Does the work where it is asked for."""
-
     def run(self, function: Callable[..., Result], *args: object) -> Result:  # type: ignore[override]
         return function(*args)
 

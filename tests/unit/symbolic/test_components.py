@@ -5,7 +5,6 @@ from meshforge.symbolic import Hull, SymbolicMesh, mask_of, split_by_contact
 
 
 def row(*hulls: tuple[float, str]) -> SymbolicMesh:
-    """Unit boxes at places along X, each in a body."""
     boxes = [(Box.of_bounds(Aabb([x, 0, 0], [x + 1, 1, 1])), body) for x, body in hulls]
     return SymbolicMesh(tuple(Hull(f"h{k}", body, box) for k, (box, body) in enumerate(boxes)))
 

@@ -84,13 +84,13 @@ def test_a_labels_file_pickles(tmp_path: Path) -> None:
 
 def inferred(given: object) -> dict[str, object]:
     """A file with one label, and what was given before it."""
-    return {"hulls": {"a": {"label": "panel", "confidence": 0.9, "source": "consensus", "given": given}}}
+    return {"hulls": {"a": {"label": "panel", "confidence": 0.9, "source": "propagated", "given": given}}}
 
 
 def test_the_label_that_an_inferred_one_replaced_is_written_and_read(tmp_path: Path) -> None:
-    label = Label("leg", 0.875, "consensus", Label("panel", 0.5, "vlm"))
+    label = Label("leg", 0.875, "propagated", Label("panel", 0.5, "vlm"))
     text = write_labels(tmp_path / "x.json", SymbolicMesh((Hull("top", "body", box(0), label),)), ["leg"])
-    assert '"source": "consensus", "given": {"label": "panel", "confidence": 0.5, "source": "vlm"}, "digest"' in text
+    assert '"source": "propagated", "given": {"label": "panel", "confidence": 0.5, "source": "vlm"}, "digest"' in text
     file = read_labels(tmp_path / "x.json")
     assert (file.vocabulary, file.labels["top"]) == (("leg", "panel"), label)
 
@@ -128,7 +128,7 @@ def test_whatever_labels_say_is_read_as_it_was_written(
         ({"vocabulary": ["panel", "leg"], "hulls": {"a": "panell"}}, "'panell' of hull 'a'.*\n.*'panel'"),
         ('{"hulls": {"a": "leg", "a": "panel"}}', "'a' is given twice"),
         (inferred("leg"), "what hull 'a' was given before is no label that a person, a file or a machine gave"),
-        (inferred({"label": "leg", "source": "consensus"}), "what hull 'a' was given before is no label"),
+        (inferred({"label": "leg", "source": "propagated"}), "what hull 'a' was given before is no label"),
         (inferred({"label": "leg", "given": {"label": "leg"}}), "what hull 'a' was given before is no label"),
         (inferred({"label": "leg", "source": "me"}), "source of hull 'a' is 'me'"),
         (inferred({"label": "leg", "confidence": 2}), "confidence of hull 'a' is 2"),

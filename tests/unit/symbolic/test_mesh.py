@@ -15,7 +15,6 @@ def box(x: float, size: float = 1.0) -> Box:
 
 
 def row(*places: float, epsilon: float = 0.002, scale: float | None = None) -> SymbolicMesh:
-    """Unit boxes at places along X, named a, b, c and so on."""
     return SymbolicMesh(tuple(Hull("abcdefgh"[k], "body", box(x)) for k, x in enumerate(places)), None, epsilon, scale)
 
 

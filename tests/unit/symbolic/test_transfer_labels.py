@@ -2,12 +2,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from meshforge.geometry import Aabb, Box
 from meshforge.symbolic import Hull, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 
 def mesh(**places: float) -> SymbolicMesh:
-    """Unit boxes by name, each at its place along X."""
     return SymbolicMesh(
         tuple(Hull(n, "body", Box.of_bounds(Aabb([x, 0, 0], [x + 1, 1, 1]))) for n, x in places.items())
     )
@@ -20,55 +21,31 @@ def labelled(folder: Path, before: SymbolicMesh) -> LabelFile:
     return read_labels(folder / "labels.json")
 
 
-def labels(found: SymbolicMesh) -> dict[str, str | None]:
-    return {hull.name: hull.label for hull in found.hulls}
-
-
-def test_labels_stay_with_hulls_that_did_not_change(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2)), mesh(a=0, b=2))
-    assert labels(followed.mesh) == {"a": "was_a", "b": "was_b"}
-    assert (followed.changed, followed.renamed, followed.gone) == ((), (), ())
-
-
-def test_a_label_follows_a_hull_that_was_renamed(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2)), mesh(a=0, c=2))
-    assert labels(followed.mesh) == {"a": "was_a", "c": "was_b"}
-    assert followed.renamed == (("b", "c"),)
-
-
-def test_labels_follow_hulls_that_were_renumbered(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2, c=4)), mesh(a=2, b=4))
-    assert labels(followed.mesh) == {"a": "was_b", "b": "was_c"}
-    assert followed.renamed == (("b", "a"), ("c", "b"))
-    assert followed.gone == ("a",)
-
-
-def test_a_hull_of_other_geometry_keeps_its_label_and_is_told(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2)), mesh(a=0, b=3))
-    assert labels(followed.mesh) == {"a": "was_a", "b": "was_b"}
-    assert followed.changed == ("b",)
-
-
-def test_a_hull_that_is_not_there_is_told_and_its_label_goes_nowhere(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2)), mesh(a=0, c=3))
-    assert labels(followed.mesh) == {"a": "was_a", "c": None}
-    assert followed.gone == ("b",)
-
-
-def test_a_label_follows_no_hull_where_two_are_alike(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=2)), mesh(a=0, c=2, d=2))
-    assert labels(followed.mesh) == {"a": "was_a", "c": None, "d": None}
-    assert followed.gone == ("b",)
-
-
-def test_one_of_two_equal_hulls_that_is_left_keeps_its_own_label(tmp_path: Path) -> None:
-    followed = transfer_labels(labelled(tmp_path, mesh(a=0, b=0)), mesh(b=0))
-    assert labels(followed.mesh) == {"b": "was_b"}
-    assert (followed.gone, followed.renamed) == (("a",), ())
+@pytest.mark.parametrize(
+    ("before", "after", "labels", "renamed", "changed", "gone"),
+    [
+        pytest.param("a0 b2", "a0 b2", "a=a b=b", "", "", "", id="as they were"),
+        pytest.param("a0 b2", "a0 c2", "a=a c=b", "b>c", "", "", id="renamed"),
+        pytest.param("a0 b2 c4", "a2 b4", "a=b b=c", "b>a c>b", "", "a", id="renumbered"),
+        pytest.param("a0 b2", "a0 b3", "a=a b=b", "", "b", "", id="of other geometry"),
+        pytest.param("a0 b2", "a0 c3", "a=a c=", "", "", "b", id="gone"),
+        pytest.param("a0 b2", "a0 c2 d2", "a=a c= d=", "", "", "b", id="two are alike"),
+        pytest.param("a0 b0", "b0", "b=b", "", "", "a", id="one of two that are alike is left"),
+    ],
+)
+def test_a_label_follows_its_hull_and_what_became_of_others_is_told(
+    tmp_path: Path, before: str, after: str, labels: str, renamed: str, changed: str, gone: str
+) -> None:
+    old, new = (mesh(**{word[0]: float(word[1:]) for word in text.split()}) for text in (before, after))
+    followed = transfer_labels(labelled(tmp_path, old), new)
+    found = {hull.name: (hull.label or "").removeprefix("was_") for hull in followed.mesh.hulls}
+    assert " ".join(f"{name}={label}" for name, label in found.items()) == labels
+    assert " ".join(f"{one}>{other}" for one, other in followed.renamed) == renamed
+    assert (" ".join(followed.changed), " ".join(followed.gone)) == (changed, gone)
 
 
 def test_labels_without_digests_go_by_name() -> None:
     file = LabelFile(labels={"a": Label("leg"), "z": Label("leg")})
     followed = transfer_labels(file, mesh(a=7))
-    assert labels(followed.mesh) == {"a": "leg"}
+    assert [hull.label for hull in followed.mesh.hulls] == ["leg"]
     assert (followed.changed, followed.gone) == ((), ("z",))

@@ -40,7 +40,6 @@ def shape(outcome: LearningOutcome) -> dict[str, Any]:
 
 
 def at(size: float) -> SymbolicMesh:
-    """A cupboard of that size."""
     return boxes(
         ("case", "body", (0, 0, 0), (4 * size, 4 * size, 4 * size)),
         ("drawer", "drawer", (0, -size, 0), (4 * size, size, 2 * size)),

@@ -171,17 +171,11 @@ def test_snap_alone_is_changed_where_that_is_enough() -> None:
 
 
 @pytest.mark.slow
-def test_a_second_pair_is_found_where_one_is_not_enough() -> None:
-    found = suggested(*[shown(mesh, "top", "front") for mesh in FRONTS])
-    assert found and len(found.orient.pairs) == 2
-    assert found.sizes == (2, 2)
-
-
-@pytest.mark.slow
-def test_a_pair_that_is_given_is_kept_where_a_second_one_is_enough() -> None:
-    found = suggested(*[shown(mesh, "top", "front") for mesh in FRONTS], now=UP)
-    assert found and found.orient.pairs[0] == parse_orient(UP).pairs[0]
-    assert found.sizes == (2, 2)
+@pytest.mark.parametrize("now", [None, UP])
+def test_a_second_pair_is_found_where_one_is_not_enough_and_keeps_the_one_that_is_given(now: str | None) -> None:
+    found = suggested(*[shown(mesh, "top", "front") for mesh in FRONTS], now=now)
+    assert found and len(found.orient.pairs) == 2 and found.sizes == (2, 2)
+    assert not now or found.orient.pairs[0] == parse_orient(now).pairs[0]
 
 
 def test_a_pair_that_is_given_is_replaced_where_keeping_it_does_not_help() -> None:

@@ -18,7 +18,6 @@ from tests.synthesis_boxes import table
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
 EXACT = Options(repair=False)
 CONTACT = Options(repair=False, layers="S+T", max_size=3)
-TABLES = (table(), table(drawers=3, litter=2), table(legs=5, knob=0.9))
 
 
 def masked(mesh: SymbolicMesh, *names: str) -> int:
@@ -33,9 +32,10 @@ def run(examples: list[Example], options: Options = EXACT) -> SearchResult | Hit
     return PaperSearch(examples, LABELS, TimeBudget(60), options).run()
 
 
-def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_then_sets() -> None:
-    first: list[Extractor] = []
-    worklist, grammar = Worklist(3), HoleGrammar(("a",), "S+T+G")
+def enumerate_extractors(size: int, layers: Layers) -> list[Extractor]:
+    """All up to a size, in the order of the search."""
+    found: list[Extractor] = []
+    worklist, grammar = Worklist(size), HoleGrammar(("a",), layers)
     worklist.put(Hole())
     while popped := worklist.pop():
         partial = popped[1]
@@ -43,7 +43,12 @@ def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_the
             for candidate in grammar.fill(partial):
                 worklist.put(candidate)
         else:
-            first.append(partial)
+            found.append(partial)
+    return found
+
+
+def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_then_sets() -> None:
+    first = enumerate_extractors(3, "S+T+G")
     assert first[:4] == [Is("a"), All(), Geo(Is("a"), "+X"), Geo(All(), "+X")]
     assert [type(extractor) for extractor in first[14:]] == [Attach] * 4 + [Union] * 4 + [Intersect] * 4 + [Diff] * 4
     assert first[18:20] == [Union(Is("a"), Is("a")), Union(Is("a"), All())]
@@ -55,16 +60,7 @@ def test_a_layer_left_out_is_not_used(layers: Layers, barred: set[type]) -> None
         inner = (extractor.left, extractor.right) if isinstance(extractor, Union | Intersect | Diff) else ()
         return {type(extractor)}.union(*map(parts, inner))
 
-    seen: set[type] = set()
-    worklist, grammar = Worklist(5), HoleGrammar(("a",), layers)
-    worklist.put(Hole())
-    while popped := worklist.pop():
-        partial = popped[1]
-        if isinstance(partial, Open):
-            for candidate in grammar.fill(partial):
-                worklist.put(candidate)
-        else:
-            seen |= parts(partial)
+    seen: set[type] = set().union(*map(parts, enumerate_extractors(5, layers)))
     assert seen == {All, Is, Attach, Geo, Union, Intersect, Diff} - barred
 
 

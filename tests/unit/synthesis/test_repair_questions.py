@@ -56,8 +56,6 @@ def planted(wrong: Mapping[str, str | None], program: str = "Is(leg) => Delete")
 
 
 class Person:
-    """Says yes to what is in `right`, and remembers what was asked."""
-
     def __init__(self, *right: LabelFix) -> None:
         self.right, self.asked = right, list[Repair]()
 

@@ -17,7 +17,7 @@ let sent: AnyEdit[] = [];
 
 beforeEach(() => {
   sent = [];
-  const vocabulary = ["leg", "top"].map((name) => ({ name, text: name, color: "#000000", used: 0 }));
+  const vocabulary = ["leg", "top"].map((name) => ({ name, text: name, color: "#000000", used: 0, is_class: false }));
   const cards = { a: sampleCard({ asset: "a", hulls: 2, labels: [-1, -1] }) };
   useProject.setState({ ...emptyProject, order: ["a"], cards, project: { ...emptyProject.project, vocabulary } }, true);
   useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);

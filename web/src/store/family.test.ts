@@ -11,8 +11,8 @@ const family = (...cards: Card[]) => Object.fromEntries(cards.map((one) => [one.
 const all: Filters = { search: "", only: [], sort: "name" };
 const project = {
   vocabulary: [
-    { name: "door", text: "door", color: "#fff", used: 1 },
-    { name: "handle", text: "handle", color: "#000", used: 1 },
+    { name: "door", text: "door", color: "#fff", used: 1, is_class: false },
+    { name: "handle", text: "handle", color: "#000", used: 1, is_class: false },
   ],
 };
 const shown = (cards: Record<string, Card>, filters: Partial<Filters> = {}) =>

@@ -8,11 +8,13 @@ import { type FilterName, type Filters, useWorkspace } from "./workspace";
 type Cards = Readonly<Record<string, Card>>;
 type Confidence = Readonly<Record<string, ConfidenceView>>;
 
+const UNLABELLED = -1;
+
 /** How many hulls of an asset have no label. */
-export const unlabelled = (card: Card): number => card.labels.filter((label) => label < 0).length;
+export const unlabelled = (card: Card): number => card.labels.filter((label) => label === UNLABELLED).length;
 
 const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
-  unlabelled: (card) => card.labels.some((label) => label < 0),
+  unlabelled: (card) => card.labels.some((label) => label === UNLABELLED),
   unsure: (card) => card.unsure.length > 0,
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",

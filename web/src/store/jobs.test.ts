@@ -12,7 +12,7 @@ import { useToasts } from "./toasts";
 const job: Job = { id: "p", kind: "propagate", title: "", done: 0, total: 2, doing: "", state: "running", message: "", lines: [], out: null };
 const whole = sampleCard({ asset: "a", hulls: 2, labels: [0, 0], given: 2 });
 const bare = sampleCard({ asset: "b", hulls: 2, labels: [-1, -1] });
-const vocabulary = [{ name: "leg", text: "leg", color: "#000000", used: 2 }];
+const vocabulary = [{ name: "leg", text: "leg", color: "#000000", used: 2, is_class: false }];
 const project = { ...emptyProject.project, vocabulary };
 
 beforeEach(() => {

@@ -18,7 +18,7 @@ let sent: AnyEdit[] = [];
 beforeEach(() => {
   sent = [];
   vi.useFakeTimers();
-  const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1 }));
+  const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1, is_class: false }));
   const cards = { a: card("a", [0]), b: card("b", [2]) } as never;
   useProject.setState(
     { ...emptyProject, order: ["a", "b"], cards, project: { ...emptyProject.project, vocabulary } },

@@ -79,7 +79,7 @@ const inHand = () => [useWorkspace.getState().asset, ...useWorkspace.getState().
 
 beforeEach(() => {
   sent = [];
-  const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1 }));
+  const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1, is_class: false }));
   const cards = { a: cardQueue("a", [0]), b: cardQueue("b", [2, 0]), c: cardQueue("c", []) };
   useProject.setState(
     { ...emptyProject, order: ["a", "b", "c"], cards, project: { ...emptyProject.project, vocabulary } },

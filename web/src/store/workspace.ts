@@ -14,7 +14,6 @@ export const STAGE_OF: Readonly<Record<NextStep["kind"], StageName>> = {
   decompose: "label",
   "label-files": "label",
   "label-names": "label",
-  vocabulary: "label",
   label: "label",
   propagate: "label",
   "check-labels": "label",

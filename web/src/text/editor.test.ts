@@ -30,7 +30,7 @@ function offered(text: string, { explicit = false, bare = false } = {}) {
 const labels = (text: string, how = {}) => offered(text, how)?.options.map((option) => option.label) ?? null;
 
 beforeEach(() => {
-  const vocabulary = ["leg", "table top"].map((name) => ({ name, text: name === "leg" ? name : JSON.stringify(name), color: "#000000", used: 0 }));
+  const vocabulary = ["leg", "table top"].map((name) => ({ name, text: name === "leg" ? name : JSON.stringify(name), color: "#000000", used: 0, is_class: false }));
   useProject.setState({ ...emptyProject, language, project: { ...emptyProject.project, vocabulary, templates: ["tray.obj"] } }, true);
 });
 

@@ -17,7 +17,7 @@ from meshforge.checks import Examination, Finding, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
 from meshforge.rendering import ColorBy, compare, draw_difference, encode_webp, render
-from meshforge.symbolic import SymbolicMesh, read_labels, transfer_labels
+from meshforge.symbolic import SymbolicMesh, transfer_labels
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -174,10 +174,8 @@ def read_again(
 def read_job(job: AssetJob) -> SymbolicMesh:
     """Return an asset with its labels, after what is done to it before the program. Raises as `load` and
     `read_prepared`."""
-    if job.preparation is None:
-        return load(job.path, labels=job.labels)
-    mesh = SymbolicMesh.of(read_prepared(job.path, job.preparation))
-    return transfer_labels(read_labels(job.labels), mesh).mesh if job.labels else mesh
+    mesh = SymbolicMesh.of(read_prepared(job.path, job.preparation)) if job.preparation else load(job.path)
+    return transfer_labels(job.read_labels(), mesh).mesh
 
 
 def _try_read(reader: MeshReader) -> SymbolicMesh | None:

@@ -151,9 +151,9 @@ def _propagate(
     if not any(heard.values()):
         return {}
     family = replace(family, vocabulary=(*family.vocabulary, unknown))
-    compared = compare_assets(family, lambda label: label, replace(described, current=heard))
+    compared = compare_assets(family, lambda asset, _: heard[asset], described=described)
     found = [label for place in range(len(compared.assets)) for label in compared.found.labels(place)]
-    return dict(replace(compared, current=described.current).share_out(found))
+    return dict(compared.share_out(found))
 
 
 @dataclass(slots=True)

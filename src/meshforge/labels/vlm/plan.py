@@ -10,7 +10,7 @@ from functools import partial
 from meshforge import symbolic
 from meshforge.batch import WorkerFailure, execute
 from meshforge.common import AssetError, UsageError, describe_error
-from meshforge.label_model import choose_exemplars
+from meshforge.label_model import FamilyTable, choose_exemplars
 from meshforge.labels.family_comparison import FamilyDescription, describe_assets
 from meshforge.labels.labeler import LabelFamily
 from meshforge.labels.vlm import prompt
@@ -47,8 +47,9 @@ def plan_questions(family: LabelFamily, config: PromptConfig) -> tuple[FamilyDes
     if config.settings.every_hull:
         return None, [{asset: ()} for asset in family.store.assets()]
     described, rows = describe_assets(family), list[tuple[str, list[str]]]()
-    for mesh, places in choose_exemplars(described.table, _QUESTIONS * _TOGETHER, prompt.MOST_COLORS).items():
-        asset, begin = described.assets[mesh], described.table.spans[mesh].start
+    assets, table = [*described.rows], FamilyTable.of([*described.rows.values()])
+    for mesh, places in choose_exemplars(table, _QUESTIONS * _TOGETHER, prompt.MOST_COLORS).items():
+        asset, begin = assets[mesh], table.spans[mesh].start
         names = [*described.hulls[asset]]
         rows.append((asset, [names[place - begin] for place in places]))
     starts = range(0, len(rows), _TOGETHER)

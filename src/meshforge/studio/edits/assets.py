@@ -15,6 +15,7 @@ from meshforge.store import Layout, list_files
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.wire.program import ActionCall
+from meshforge.symbolic import is_class_name
 
 
 class LabelHulls(Edit):
@@ -68,7 +69,7 @@ class SetVocabulary(Edit):
     labels: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
-        project.set_vocabulary(self.labels)
+        project.set_vocabulary([label for label in self.labels if not is_class_name(label)])
 
     def describe(self, project: Project) -> str:
         return f"vocabulary: {', '.join(self.labels) or 'empty'}"

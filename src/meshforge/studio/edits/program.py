@@ -8,7 +8,7 @@ from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import All, BaseExtractor, Is, LandmarkPair, Orient, Program, show
 from meshforge.project import Project
-from meshforge.store import ConflictError, Layout, list_files
+from meshforge.store import ConflictError, Layout
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits import base
 from meshforge.studio.wire import Wire
@@ -162,11 +162,14 @@ class TakeBack(base.Edit):
         project.take_back(self.id)
 
 
+_PROGRAM = Layout.program, Layout.previous_program, Layout.learned
+
+
 class WriteProgram(base.Edit):
     """Make a text the project's program. version: of the program that was changed."""
 
     kind: Literal["program"] = "program"
-    touches = tuple(file for file in list_files() if file.learned)
+    touches = _PROGRAM
     title = "program changed by hand"
     text: str
     version: str
@@ -184,7 +187,7 @@ class WriteProgram(base.Edit):
 class TakeLearned(base.Edit):
     """Give up the program that was written by hand, so that the learned one takes its place."""
 
-    touches = tuple(file for file in list_files() if file.learned)
+    touches = _PROGRAM
     title = "the learned program taken in place of the one by hand"
 
     def apply(self, project: Project) -> None:

@@ -62,6 +62,8 @@ def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
         memory.family.count_run()
         digest = digest_inputs(project)
         meshes = dict(memory.family.read_meshes(project, select_assets(project), stop))
+        if any(now is not meshes[asset] for asset, now in project.update_classes(meshes).items()):
+            meshes = dict(memory.family.read_meshes(project, select_assets(project), stop))
         outcome = project.synthesize(accept=not project.program_state().by_hand, meshes=meshes, stop=stop)
     except StoppedError:
         return OutcomeView(number=number, status="timeout")

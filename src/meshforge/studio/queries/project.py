@@ -26,6 +26,7 @@ from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import OutcomeView, ProgramView
+from meshforge.symbolic import NO_PART, Label, is_class_name
 from meshforge.synthesis import Step
 
 
@@ -81,7 +82,7 @@ def build_project_view(
     return wire.ProjectView(
         name=settings.name,
         folder=str(project.folder),
-        vocabulary=vocabulary_view(settings.vocabulary),
+        vocabulary=vocabulary_view(project.words),
         orient=_view_orientation(settings.orient, project.orientation),
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
@@ -130,7 +131,10 @@ def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> wire.RuleLine:
 
 def vocabulary_view(words: Sequence[str]) -> tuple[wire.VocabularyLabel, ...]:
     """Return the labels of the vocabulary, each with its color."""
-    return tuple(wire.VocabularyLabel(name=w, text=show_label(w), color=label_color(k)) for k, w in enumerate(words))
+    return tuple(
+        wire.VocabularyLabel(name=word, text=show_label(word), color=label_color(k), is_class=is_class_name(word))
+        for k, word in enumerate(words)
+    )
 
 
 def _list_feedback(project: Project) -> Iterator[wire.AnswerView]:
@@ -171,7 +175,7 @@ def build_card(
     output = status.output_digest
     return wire.Card(
         asset=status.id,
-        labels=tuple(places.get(label.name, -1) if label else -1 for label in status.labels),
+        labels=tuple(_place_of(label, places) for label in status.labels),
         after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
         note=status.review_note,
         picture=picture,
@@ -180,6 +184,12 @@ def build_card(
         faults=faults,
         **{name: getattr(status, name) for name in _SHARED},
     )
+
+
+def _place_of(label: Label | None, places: Mapping[str, int]) -> int:
+    if label is None:
+        return -1
+    return -2 if label.name == NO_PART else places.get(label.name, -1)
 
 
 def model_of(project: Project) -> Model | None:

@@ -81,7 +81,7 @@ class FileSync:
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         self.project = replace(self.project, every=Project.open(self.project.folder).every)
-        self._pages.change_project(vocabulary=vocabulary_view(self.project.settings.vocabulary))
+        self._pages.change_project(vocabulary=vocabulary_view(self.project.words))
         self._family = self.project.assets()
         self._queue.add(self._pages.set_assets(self._family), later=True)
 

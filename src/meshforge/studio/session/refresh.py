@@ -76,11 +76,11 @@ class Refresher:
         status = project.status(
             assets, others=self._rows.values(), progress=self._count_read, stop=self.queue.is_closed
         )
-        settings = project.settings
+        words, orient = project.words, project.settings.orient
         self._rows |= {row.id: row for row in status.assets}
         keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
         self._pages.set_cards(
-            build_card(row, settings.vocabulary, settings.orient, key, self._checks.faults_of(key))
+            build_card(row, words, orient, key, self._checks.faults_of(key))
             for row, key in zip(status.assets, keys, strict=True)
         )
         self._report_progress()

@@ -20,8 +20,8 @@ class Card(Wire):
     """One asset in the gallery.
 
     hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
-    place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
-    a person or a file gave.
+    place in the vocabulary, -1 for none, -2 for one that is none of the parts; unsure: positions of hulls whose label
+    is not sure; given: how many labels a person or a file gave.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -55,11 +55,13 @@ class Card(Wire):
 
 
 class VocabularyLabel(Wire):
-    """A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place."""
+    """A label of the vocabulary, or a class. text: as programs write it; color: `#rrggbb`, by its place; is_class:
+    whether it stands for hulls that steps take."""
 
     name: str
     text: str
     color: str
+    is_class: bool = False
 
 
 class RuleLine(Wire):

@@ -12,7 +12,7 @@ from meshforge.batch import Preparation, apply_preparation, decompose_asset, fin
 from meshforge.formats import load, read, save
 from meshforge.geometry import CoacdSettings, HullSettings, Polytope
 from meshforge.symbolic import Asset, SymbolicMesh
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 from tests.urdf_sample import boxes_obj, corner_obj
 
 APART = (((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), ((4.0, 0.0, 0.0), (5.0, 1.0, 1.0)))
@@ -128,12 +128,8 @@ def _write_whole(obj: Path, suffix: str) -> Path:
     return path
 
 
-def test_the_command_line_makes_a_hull_of_each_mesh_and_undoes_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    run = runner(monkeypatch, capsys)
+def test_the_command_line_makes_a_hull_of_each_mesh_and_undoes_it(run: Run, tmp_path: Path) -> None:
     write_robot(tmp_path / "in")
-    monkeypatch.chdir(tmp_path)
     told = run("new", "p", "in/cad.urdf", "--decompose", "hull", "--workers", "1")
     assert told.code == 0 and "2 pieces into 2 hulls" in told.out
     names = [hull["name"] for hull in run("info", "cad.urdf", "--project", "p", "--json").json["hulls"]]
@@ -143,12 +139,8 @@ def test_the_command_line_makes_a_hull_of_each_mesh_and_undoes_it(
     assert len(run("info", "cad.urdf", "--project", "p", "--json").json["non_convex"]) == 2
 
 
-def test_one_hull_of_a_mesh_file_is_written_and_nothing_is_divided_by_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    run = runner(monkeypatch, capsys)
+def test_one_hull_of_a_mesh_file_is_written_and_nothing_is_divided_by_it(run: Run, tmp_path: Path) -> None:
     write_robot(tmp_path)
-    monkeypatch.chdir(tmp_path)
     assert run("decompose", "cad.obj", "-o", "one.obj", "--decompose", "hull").code == 0
     (hull,) = load("one.obj").hulls
     assert hull.volume == pytest.approx(hull_of(tmp_path / "cad.obj")[0])

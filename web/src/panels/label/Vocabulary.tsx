@@ -5,7 +5,7 @@ import { perform } from "../../store/edits";
 import { addLabels, countLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
 import { applyLabel, labelProgress } from "../../store/unsureHulls";
-import { countText } from "../../store/words";
+import { countText, listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
@@ -18,12 +18,16 @@ export function Vocabulary() {
   const cards = useProject((state) => state.cards);
   const counts = useMemo(() => countLabels(cards), [cards]);
   const names = vocabulary.map((label) => label.name);
+  const classes = vocabulary.filter((label) => label.is_class).map((label) => label.name);
   const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moveItem(names, from, to) });
   const reorder = useReorder("y", move);
   return (
     <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
       {vocabulary.length === 0 && (
-        <Note>Type the names of the parts. They are the same on every asset.</Note>
+        <Note>No names are needed to begin: show the steps on one asset (2), and name its parts later, or now.</Note>
+      )}
+      {classes.length > 0 && (
+        <Note>{listText(classes)} {classes.length === 1 ? "stands" : "stand"} for hulls that steps take. Rename them as you like.</Note>
       )}
       <ul className={css.labels}>
         {vocabulary.map((label, place) => (

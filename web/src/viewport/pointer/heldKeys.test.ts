@@ -13,7 +13,7 @@ beforeEach(() => {
   listeners = new Map();
   vi.stubGlobal("window", { addEventListener: (kind: string, does: (event: unknown) => void) => listeners.set(kind, does) });
   useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);
-  const vocabulary = ["leg", "top"].map((name) => ({ name, text: name, color: "#000000", used: 0 }));
+  const vocabulary = ["leg", "top"].map((name) => ({ name, text: name, color: "#000000", used: 0, is_class: false }));
   useProject.setState({ ...emptyProject, project: { ...emptyProject.project, vocabulary } }, true);
   stop = watchHeldKeys();
 });

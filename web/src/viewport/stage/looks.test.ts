@@ -53,7 +53,7 @@ describe("a hull", () => {
   });
 
   it("is grey without a label, and has the colour of its label with one", () => {
-    const vocabulary = [{ name: "leg", text: "leg", color: "#ff0000", used: 1 }];
+    const vocabulary = [{ name: "leg", text: "leg", color: "#ff0000", used: 1, is_class: false }];
     useProject.setState({ project: { ...emptyProject.project, vocabulary } });
     const hulls = scene.hulls.map((hull, k) => (k === 0 ? { ...hull, label: "leg", confidence: 0.2 } : hull));
     const now = looks({ ...scene, hulls });

@@ -39,14 +39,14 @@ def labels_of(project: Project) -> dict[tuple[str, str], Label]:
 def test_a_wrong_label_is_replaced_a_missing_one_found_and_right_ones_stay_as_they_are(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = labels_of(project)
-    result = project.label("consensus")
+    result = project.label("propagate")
     now = labels_of(project)
     assert {place: label.name for place, label in now.items()} == {
         (asset, name): RIGHT[name] for asset in project.assets() for name in NAMES
     }
     changed = {place: label for place, label in now.items() if before.get(place) != label}
     assert changed.keys() == {("t1.obj", "top"), ("t2.obj", "left_low")}
-    assert {label.source for label in changed.values()} == {"consensus"}
+    assert {label.source for label in changed.values()} == {"propagated"}
     assert changed["t1.obj", "top"].given == Label("leg", 0.8, "vlm")
     assert changed["t2.obj", "left_low"].given is None
     assert result.changes == (LabelChange(None, "leg", 1, 1), LabelChange("leg", "top", 1, 1))
@@ -57,9 +57,9 @@ def test_a_wrong_label_is_replaced_a_missing_one_found_and_right_ones_stay_as_th
 def test_again_changes_nothing_and_what_sources_said_comes_back_byte_for_byte(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
-    project.label("consensus")
+    project.label("propagate")
     after = tree(project.folder / "labels")
-    again = project.label("consensus")
+    again = project.label("propagate")
     assert tree(project.folder / "labels") == after != before
     assert again.changes == () and not any(report.taken for report in again.outcomes)
     restored = project.label("sources")
@@ -74,7 +74,7 @@ def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     for asset in project.assets():
         project.set_labels(asset, RIGHT | {"top": "misc" if asset == "t1.obj" else "top"})
     before = tree(project.folder / "labels")
-    result = project.label("consensus")
+    result = project.label("propagate")
     assert (result.free, result.changes, result.next) == (0, (), None)
     assert tree(project.folder / "labels") == before
 
@@ -85,7 +85,7 @@ def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_pat
     project.set_labels("t5.obj", {"crumb": "leg"})
     project.set_vocabulary(("top", "leg"))
     before = tree(project.folder / "labels")
-    project.label("consensus")
+    project.label("propagate")
     labels = labels_of(project)
     assert labels["t4.obj", "crumb"] == labels["t4.obj", "right_low"] == Label("misc")
     assert labels["t0.obj", "crumb"].name == "leg"
@@ -105,7 +105,7 @@ def test_a_label_that_one_asset_alone_has_stays_where_a_person_or_a_file_gave_it
     for hull in hulls:
         project.set_labels("t3.obj", {hull: None})
         project.set_labels("t3.obj", {hull: "knob"}, source=source, confidence=sure)
-    project.label("consensus")
+    project.label("propagate")
     labels = project.labels("t3.obj").labels
     assert [labels[hull] for hull in hulls] == [Label("knob", sure, source)] * 3
 
@@ -115,7 +115,7 @@ def test_two_names_of_one_part_are_told(tmp_path: Path) -> None:
     for place, asset in enumerate(project.assets()):
         legs = {name: "legs" for name, label in RIGHT.items() if label == "leg" and place % 2}
         project.set_labels(asset, RIGHT | legs, source="user" if place < 2 else "vlm", confidence=0.8)
-    result = project.label("consensus")
+    result = project.label("propagate")
     assert result.alike == (("leg", "legs"),)
     assert project.labels("t1.obj").labels["left_low"] == Label("legs", 0.8)
 
@@ -127,7 +127,7 @@ def test_a_label_that_was_changed_meanwhile_stays(tmp_path: Path) -> None:
         project.set_labels("t1.obj", {"top": "misc"}, source="name", confidence=0.3)
         return ExitStack()
 
-    project.label("consensus", write_block=write)
+    project.label("propagate", write_block=write)
     assert project.labels("t1.obj").labels["top"] == Label("misc", 0.3, "name")
 
 
@@ -135,22 +135,22 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
     with pytest.raises(StoppedError):
-        project.label("consensus", execution=ExecutionOptions(0, stop=lambda: True))
+        project.label("propagate", execution=ExecutionOptions(0, stop=lambda: True))
     assert tree(project.folder / "labels") == before
 
 
 def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
-    shown = project.label("consensus", dry_run=True).proposals
+    shown = project.label("propagate", dry_run=True).proposals
     assert tree(project.folder / "labels") == before
     assert [(row.label, row.kind, row.hulls) for row in shown.rows] == [
-        ("top", "consensus, not leg", 1),
-        ("leg", "consensus", 1),
+        ("top", "likeness, not leg", 1),
+        ("leg", "likeness", 1),
     ]
     assert shown.labelled == 6 * len(NAMES) - 2
-    project.label("consensus")
-    assert project.label("consensus", dry_run=True).proposals.rows == ()
+    project.label("propagate")
+    assert project.label("propagate", dry_run=True).proposals.rows == ()
     back = project.label("sources", dry_run=True).proposals
     assert [(row.label, row.kind, row.hulls) for row in back.rows] == [("leg", "not top", 1)]
     assert [(row.label, row.kind, row.hulls) for row in back.left] == [(None, "not leg", 1)]
@@ -182,15 +182,15 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
         by = cast(LabelSource, source)
         project.set_labels(asset, {hull: label}, source=by, confidence=1.0 if by == "user" else sure)
     files, before = tree(project.folder / "labels"), labels_of(project)
-    project.label("consensus")
+    project.label("propagate")
     once, after = tree(project.folder / "labels"), labels_of(project)
     assert all(after[place] == told for place, told in before.items() if told.source in HUMAN_SOURCES)
     for place, now in after.items():
         assert now == before.get(place) or (now.source in INFERRED_SOURCES and now.given == before.get(place))
-    project.label("consensus")
+    project.label("propagate")
     assert tree(project.folder / "labels") == once
     project.label("propagate") if any(label.source == "user" for label in before.values()) else None
-    project.label("consensus")
+    project.label("propagate")
     assert tree(project.folder / "labels") == once
     project.label("sources")
     assert tree(project.folder / "labels") == files

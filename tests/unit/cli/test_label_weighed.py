@@ -1,4 +1,4 @@
-"""`meshforge label --with consensus` and `--with sources`: what they say, in words and as JSON."""
+"""`meshforge label --with propagate` and `--with sources`: what they say, in words and as JSON."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.cli.test_label_sources import told
-from tests.unit.labels.test_label_by_consensus import RIGHT, guessed
 from tests.unit.labels.test_label_by_propagation import family
+from tests.unit.labels.test_weighed_labels import RIGHT, guessed
 
 
 @pytest.fixture
@@ -26,10 +26,10 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
 
 SURE = re.compile(r"0\.\d\d$", re.MULTILINE)
 SHOWN = """\
-label   from                 names      hulls   assets   confidence
-───────────────────────────────────────────────────────────────────
-top     consensus, not leg   top            1        1   SURE
-leg     consensus            left_low       1        1   SURE
+label   from                names      hulls   assets   confidence
+──────────────────────────────────────────────────────────────────
+top     likeness, not leg   top            1        1   SURE
+leg     likeness            left_low       1        1   SURE
 2 labels would be taken; 0 hulls left without one; 34 hulls would stay as they are. Nothing was written."""
 SHOWN_BACK = """\
 label    from      names      hulls   assets   confidence
@@ -48,7 +48,7 @@ t5.obj: 0 labels taken, 6 there already
 labels from   sure   likely   unsure
 ────────────────────────────────────
 a model          0       34        0
-consensus        2        0        0
+propagation      2        0        0
 no label                           0
 
 1 hull got a label; 1 label was replaced:
@@ -62,13 +62,13 @@ BACK = """\
 @pytest.mark.slow
 def test_it_shows_what_it_would_do_does_it_and_takes_it_back(run: Run, tmp_path: Path) -> None:
     before = tree(tmp_path / "p/labels")
-    shown = run("label", "p", "--with", "consensus", "--dry-run")
+    shown = run("label", "p", "--with", "propagate", "--dry-run")
     assert (shown.code, SURE.sub("SURE", told(shown.out)), shown.err) == (0, SHOWN, "")
     assert tree(tmp_path / "p/labels") == before
-    done = run("label", "p", "--with", "consensus")
+    done = run("label", "p", "--with", "propagate")
     assert (done.code, done.err) == (0, "6 assets (6 OBJ; 0.0 MiB), 6 with labels, 0 of them by a person\n")
     assert told(done.out).replace(f"{tmp_path}/", "").rpartition(" ")[0] == DONE
-    again = told(run("label", "p", "--with", "consensus").out)
+    again = told(run("label", "p", "--with", "propagate").out)
     assert "\nEvery hull keeps its label.\n" in again and again.count("0 labels taken, 6 there already") == 6
     assert told(run("label", "p", "--with", "sources", "--dry-run").out) == SHOWN_BACK
     back = told(run("label", "p", "--with", "sources").out).replace(f"{tmp_path}/", "")
@@ -79,9 +79,9 @@ def test_it_shows_what_it_would_do_does_it_and_takes_it_back(run: Run, tmp_path:
 
 @pytest.mark.slow
 def test_json_says_the_same(run: Run) -> None:
-    *reports, closing, last = map(json.loads, run("label", "p", "--with", "consensus", "--json").out.splitlines())
+    *reports, closing, last = map(json.loads, run("label", "p", "--with", "propagate", "--json").out.splitlines())
     assert [row["taken"] for row in reports] == [0, 1, 1, 0, 0, 0]
-    assert {share["source"] for share in closing["labels"]["shares"]} == {"vlm", "consensus"}
+    assert {share["source"] for share in closing["labels"]["shares"]} == {"vlm", "propagated"}
     new, replaced = {"was": None, "label": "leg"}, {"was": "leg", "label": "top"}
     assert last["changes"] == [{**new, "hulls": 1, "assets": 1}, {**replaced, "hulls": 1, "assets": 1}]
     assert last["alike"] == [] and last["next"].endswith(".obj")
@@ -94,7 +94,7 @@ def test_labels_of_people_alone_leave_nothing_to_do(run: Run, tmp_path: Path) ->
     project = Project.open(tmp_path / "p")
     for asset in project.assets():
         project.set_labels(asset, RIGHT)
-    told_again = run("label", "p", "--with", "consensus")
+    told_again = run("label", "p", "--with", "propagate")
     assert told_again.code == 0
     assert told_again.out.endswith("\nPeople labelled every hull: nothing is left to do.\n")
 
@@ -106,9 +106,9 @@ def test_two_names_of_one_part_are_named_with_the_remedy(run: Run, tmp_path: Pat
     for asset in project.assets()[::2]:
         legs = {name: "legs" for name, label in RIGHT.items() if label == "leg"}
         project.set_labels(asset, legs, source="vlm", confidence=0.8)
-    remedy = "meshforge label p --with consensus --vocabulary top,leg,misc"
+    remedy = "meshforge label p --with propagate --vocabulary top,leg,misc"
     said = f"leg and legs are on hulls that look alike, and hardly an asset has both. If they are one part, {remedy}"
-    found = run("label", "p", "--with", "consensus").out.replace(f"{tmp_path}/", "")
+    found = run("label", "p", "--with", "propagate").out.replace(f"{tmp_path}/", "")
     assert said.replace("part, ", "part, leave one of them out: ") in found
     after = run(*remedy.split()[1:])
     assert after.code == 0 and "look alike" not in after.out
@@ -119,7 +119,7 @@ def test_two_names_of_one_part_are_named_with_the_remedy(run: Run, tmp_path: Pat
 @pytest.mark.slow
 def test_without_any_label_there_is_one_error_with_the_remedy(run: Run, tmp_path: Path) -> None:
     family(tmp_path / "bare")
-    told_it = run("label", "bare/p", "--with", "consensus")
+    told_it = run("label", "bare/p", "--with", "propagate")
     assert told_it.code == 2 and not told_it.out
     assert told_it.err.count("there is no label that others could be taken from") == 1
     assert "Label the hulls of one asset first, best t" in told_it.err
@@ -128,9 +128,9 @@ def test_without_any_label_there_is_one_error_with_the_remedy(run: Run, tmp_path
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--with", "consensus", "--labels", "p"), "--labels is for --with file"),
+        (("--with", "propagate", "--labels", "p"), "--labels is for --with file"),
         (("--with", "sources", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
-        (("--with", "consensus", "--model", "x"), "--model is for --with vlm"),
+        (("--with", "propagate", "--model", "x"), "--model is for --with vlm"),
     ],
 )
 def test_misuse_is_told_in_one_message(run: Run, words: tuple[str, ...], message: str) -> None:

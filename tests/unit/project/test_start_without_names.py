@@ -1,0 +1,142 @@
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from meshforge.batch import IN_PROCESS
+from meshforge.batch.outcome import Edited
+from meshforge.common import ProjectError, UsageError
+from meshforge.language import Delete, Each, Merge
+from meshforge.project import Project
+from meshforge.store import History, Layout, list_files
+from meshforge.symbolic import NO_PART, is_class_name, name_class
+from meshforge.synthesis import Answer, Step
+from tests.unit.project.tables import FIRST, LEGS, SECOND, STEPS, THIRD, fresh, learned
+
+PARTS = {"crumb": "part_a", **dict.fromkeys(LEGS, "part_b")}
+
+
+def shown(folder: Path) -> Project:
+    """A project without a label, learned from what was shown on one asset."""
+    project = fresh(folder)
+    project.demonstrate(FIRST, STEPS)
+    project.synthesize()
+    return project
+
+
+def labels_of(project: Project, asset: str) -> dict[str, str]:
+    return {hull.name: hull.label for hull in project.mesh(asset).hulls if hull.label}
+
+
+def test_without_names_a_program_asks_for_the_hulls_of_steps_and_edits_the_others(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    assert str(project.program()).splitlines()[2:] == ["Is(part_a) => Delete", "Is(part_b) => Each(Merge)"]
+    assert [labels_of(project, asset) for asset in project.assets()] == [PARTS] * 3
+    assert not any(project.labels(asset).labels for asset in project.assets()), "nobody labelled anything"
+    done = list(project.apply(execution=IN_PROCESS))
+    assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 3
+
+
+def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    top = project.mesh(SECOND).hull_of("top")
+    assert top.annotation and (top.annotation.name, top.label) == (NO_PART, None)
+    assert project.tally_labels().unlabelled == 0
+    first = project.mesh(FIRST).hulls
+    assert {hull.source for hull in first} == {"step"} and {hull.source for hull in project.mesh(THIRD).hulls} == {
+        "class"
+    }
+
+
+def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    files = [file.path(project.folder) for file in list_files() if file.words]
+    learned_files = frozenset({Layout.program.name, Layout.previous_program.name, Layout.learned.name})
+    history = History(project.folder, lambda: learned_files)
+    with history.record("named", {}, files):
+        project.rename_label("part_b", "leg")
+    assert "Is(leg)    => Each(Merge)" in str(project.program()) and project.vocabulary == ("leg",)
+    sources = {asset: {one.source for one in project.labels(asset).labels.values()} for asset in (FIRST, SECOND)}
+    assert sources == {FIRST: {"user"}, SECOND: {"propagated"}}
+    named = project.synthesize().program
+    assert named and str(named).splitlines()[1:] == str(project.program()).splitlines()[1:]
+    history.undo()
+    assert not project.vocabulary and not project.labels(FIRST).labels
+    assert "Is(part_b)" in str(project.synthesize().program)
+
+
+def test_two_parts_do_not_get_one_name_and_no_label_a_made_one(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    project.rename_label("part_b", "leg")
+    with pytest.raises(ProjectError, match="there is a label 'leg' already"):
+        project.rename_label("part_a", "leg")
+    with pytest.raises(ProjectError, match="there is no label 'part_c'"):
+        project.rename_label("part_c", "foot")
+    with pytest.raises(UsageError, match="'part_c' is a name that MeshForge gives"):
+        project.rename_label("leg", "part_c")
+    with pytest.raises(UsageError, match="'part_a' is a name that MeshForge gives"):
+        project.set_vocabulary(["part_a"])
+
+
+def test_the_hulls_of_two_steps_are_a_class_of_their_own(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.demonstrate(FIRST, [Step(1, LEGS, Each(Merge())), Step(2, {"crumb", "left_low~1"}, Delete())])
+    project.synthesize()
+    assert set(labels_of(project, FIRST).values()) == {"part_a", "part_ab", "part_b"}
+
+
+def test_an_answer_says_of_what_class_hulls_are(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    project.add_answer(Answer(1, THIRD, {"crumb", "top"}))
+    project.add_answer(Answer(2, THIRD, LEGS))
+    project.update_classes(dict(project.meshes_by_id()))
+    assert labels_of(project, THIRD) == {**PARTS, "top": "part_a"}
+    assert {hull.source for hull in project.mesh(THIRD).hulls} == {"step"}
+
+
+def test_classes_go_with_the_demonstration_and_make_way_for_labels(tmp_path: Path) -> None:
+    project = shown(tmp_path / "a")
+    project.label("file")
+    assert "part" not in str(project.synthesize().program)
+    assert not project.layout.classes.ids
+    taken_back = shown(tmp_path / "b")
+    taken_back.demonstrate(FIRST, [])
+    taken_back.layout.program.unlink()
+    taken_back.update_classes(dict(taken_back.meshes_by_id()))
+    assert not taken_back.layout.classes.ids
+
+
+def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    (tmp_path / "assets/table9").mkdir()
+    shutil.copyfile(tmp_path / "assets/table1/model.obj", tmp_path / "assets/table9/model.obj")
+    new = Project.open(project.folder)
+    assert not labels_of(new, "table9/model.obj")
+    done = list(new.apply(execution=IN_PROCESS))
+    assert labels_of(new, "table9/model.obj") == PARTS
+    assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 4
+
+
+def test_a_dry_run_writes_no_classes_and_labels_need_none(tmp_path: Path) -> None:
+    project = fresh(tmp_path / "a")
+    project.demonstrate(FIRST, STEPS)
+    assert "part_a" in str(project.synthesize(accept=False).program)
+    assert not project.layout.classes.ids and not learned(tmp_path / "b").layout.classes.ids
+
+
+rules = st.frozensets(st.integers(1, 40), max_size=6)
+
+
+@given(rules, rules)
+def test_classes_of_other_steps_have_other_names(one: frozenset[int], other: frozenset[int]) -> None:
+    assert is_class_name(name_class(one))
+    assert (name_class(one) == name_class(other)) == (one == other)
+
+
+@pytest.mark.parametrize("word", ["part_left", "part_", "part", "leg", "Part_a", "part_ba", "part_a_1", ""])
+def test_other_names_are_free(word: str) -> None:
+    assert not is_class_name(word)
