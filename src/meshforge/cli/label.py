@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
@@ -42,6 +42,7 @@ _ONLY_FOR = {
     "pattern": ("names", "file", "all"),
     "model": ("vlm",),
     "base_url": ("vlm",),
+    "every_hull": ("vlm",),
     "mode": ("vlm",),
     "max_cost": ("vlm",),
     "like": ("like",),
@@ -103,10 +104,13 @@ class LabelArguments:
     ] = None
     model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
     base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
-    mode: Annotated[
-        Literal["cheap", "balanced", "exact"] | None,
-        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
+    every_hull: Annotated[
+        bool | None,
+        typer.Option(
+            "--every-hull", help="Let --with vlm ask about every hull, not a few whose labels are propagated."
+        ),
     ] = None
+    mode: Annotated[str | None, typer.Option("--mode", hidden=True)] = None
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
@@ -167,7 +171,7 @@ class LabelArguments:
         return labeler
 
     def _read_vlm_settings(self, project: Project) -> VlmSettings:
-        names = ("model", "base_url", "mode", "max_cost")
+        names = ("model", "base_url", "every_hull", "mode", "max_cost")
         given = {name: value for name in names if (value := getattr(self, name)) is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)

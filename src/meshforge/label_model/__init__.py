@@ -13,7 +13,7 @@ __getattr__, __all__ = export_lazily(
         "odds": "LabelBeliefs LabelOdds is_human",
         "posterior": "MOST_LIKELY FamilyModel FamilyPosterior model_family",
         "sides": "correct_upright find_doubtful_sides",
-        "similar": "find_similar",
+        "similar": "choose_exemplars find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
         "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
     },

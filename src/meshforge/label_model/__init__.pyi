@@ -15,6 +15,7 @@ from meshforge.label_model.posterior import FamilyPosterior as FamilyPosterior
 from meshforge.label_model.posterior import model_family as model_family
 from meshforge.label_model.sides import correct_upright as correct_upright
 from meshforge.label_model.sides import find_doubtful_sides as find_doubtful_sides
+from meshforge.label_model.similar import choose_exemplars as choose_exemplars
 from meshforge.label_model.similar import find_similar as find_similar
 from meshforge.label_model.spans import RebuiltHull as RebuiltHull
 from meshforge.label_model.spans import SpanModel as SpanModel

@@ -54,16 +54,21 @@ class FamilyComparison:
                 yield asset, {name: infer_over(current.get(name), label) for name, label in rows if label}
 
 
-def compare_assets(
-    family: LabelFamily, speak: Callable[[str, HullLabels], HullLabels], beside: Sequence[DescribedAsset] = ()
-) -> FamilyComparison:
-    """Compare the hulls of all assets that can be read.
+@dataclass(frozen=True, eq=False)
+class FamilyDescription:
+    """The hulls of all assets, not yet compared. hulls, current, lost: as in `FamilyComparison`; rows: `rows` and
+    `touching` of the assets that were described, in order."""
 
-    speak: what speaks for hulls of an asset, given it and the labels that they have; words outside of the vocabulary
-    say nothing. beside: assets of other families, all whose labels speak.
-    Raises ProjectError: no vocabulary, or nothing is said at all.
-    """
-    store, vocabulary = family.store, family.vocabulary
+    hulls: Mapping[str, Mapping[str, str]]
+    current: Mapping[str, HullLabels]
+    lost: dict[str, str]
+    rows: Mapping[str, tuple[Floats, Ints]]
+    describer: _Describer
+
+
+def describe_assets(family: LabelFamily) -> FamilyDescription:
+    """Describe the hulls of all assets that can be read."""
+    store = family.store
     with family.stage(len(store.assets()), "reading") as advance:
         facts = dict(iterate_asset_index(store.found, store.layout, execution=family.execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
@@ -75,22 +80,36 @@ def compare_assets(
             )
         except AssetError as error:
             lost[asset] = error.message
-    evidence = {asset: speak(asset, labels) for asset, labels in current.items()}
-    if any(evidence.values()):
-        family.require_vocabulary()
     hulls = {asset: facts[asset].hulls for asset in current}
     describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
     del facts
-    described = describer.describe(list(current))
-    every = [*described.values(), *((rows, touching) for rows, touching, _ in beside)]
-    assets, table = tuple(described), label_model.FamilyTable.of(every)
-    del described, every
+    return FamilyDescription(hulls, current, lost, describer.describe(list(current)), describer)
+
+
+def compare_assets(
+    family: LabelFamily,
+    speak: Callable[[str, HullLabels], HullLabels],
+    beside: Sequence[DescribedAsset] = (),
+    described: FamilyDescription | None = None,
+) -> FamilyComparison:
+    """Compare the hulls of all assets that can be read.
+
+    speak: what speaks for hulls of an asset, given it and the labels that they have; words outside of the vocabulary
+    say nothing. beside: assets of other families, all whose labels speak; described: the assets, if they are already.
+    Raises ProjectError: no vocabulary, or nothing is said at all.
+    """
+    store, vocabulary, known = family.store, family.vocabulary, described or describe_assets(family)
+    hulls, current, lost, assets = known.hulls, known.current, known.lost, tuple(known.rows)
+    evidence = {asset: speak(asset, labels) for asset, labels in current.items()}
+    if any(evidence.values()):
+        family.require_vocabulary()
+    table = label_model.FamilyTable.of([*known.rows.values(), *((rows, touching) for rows, touching, _ in beside)])
     words = {*vocabulary, symbolic.NO_PART}
     spoken = (evidence[asset].get(name) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in words else None for label in spoken)
     observed += tuple(label for _, _, labels in beside for label in labels)
     seen = label_model.Observations.of(observed)
-    table = describer.set_upright(assets, table, seen)
+    table = known.describer.set_upright(assets, table, seen)
     compared = FamilyComparison(
         hulls, current, lost, assets, observed, _compute_isolated(table, seen, family.execution.stop)
     )
