@@ -8,7 +8,8 @@ import { type FilterName, type Filters, useWorkspace } from "./workspace";
 type Cards = Readonly<Record<string, Card>>;
 type Confidence = Readonly<Record<string, ConfidenceView>>;
 
-const UNLABELLED = -1;
+/** The place of the label of a hull that has none; one that is no part has another. */
+export const UNLABELLED = -1;
 
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label === UNLABELLED).length;

@@ -1,5 +1,6 @@
 // Hulls whose label is not sure: how many, and the queue in which each is labelled and then comes the next.
 import type { Card } from "../wire";
+import { UNLABELLED } from "./family";
 import { labelHulls, ownHulls } from "./labels";
 import { oncePerFamily, useProject } from "./project";
 import { getDetails, useScenes } from "./scenes";
@@ -34,7 +35,7 @@ export const labelProgress = oncePerFamily((cards) => {
   const sum = { hulls: 0, labelled: 0, unsure: 0, assets: 0 };
   for (const { labels, unsure } of cards) {
     sum.hulls += labels.length;
-    sum.labelled += labels.filter((label) => label >= 0).length;
+    sum.labelled += labels.length - labels.filter((label) => label === UNLABELLED).length;
     sum.unsure += unsure.length;
     sum.assets += unsure.length ? 1 : 0;
   }

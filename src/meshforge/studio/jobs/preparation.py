@@ -10,6 +10,7 @@ from uuid import uuid4
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, format_share, join_names, pluralize, relative_name
 from meshforge.geometry import CoacdSettings, VhacdSettings
+from meshforge.label_model import evidence_of
 from meshforge.labels import LabelOutcome, LabelResult, VlmForecast, VlmLabeler, VlmResult, check_vlm_settings
 from meshforge.project import (
     MADE_ANEW,
@@ -25,7 +26,6 @@ from meshforge.store import ConflictError, Layout, VlmSettings
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine, RebuildJob
-from meshforge.symbolic import GIVEN_SOURCES
 
 
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
@@ -152,8 +152,8 @@ def _check_labels(project: Project) -> None:
     """Raises ProjectError, before anything long starts, where there is nothing to propagate."""
     if not project.vocabulary:
         raise ProjectError("the vocabulary is empty", remedy="Say first what hulls can be.")
-    given = (label.source in GIVEN_SOURCES for a in project.assets() for label in project.labels(a).labels.values())
-    if not any(given):
+    labels = (label for asset in project.assets() for label in project.labels(asset).labels.values())
+    if not any(map(evidence_of, labels)):
         raise ProjectError("there is no label to propagate", remedy="Label the hulls of one asset first.")
 
 

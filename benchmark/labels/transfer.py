@@ -29,7 +29,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     """Show the steps of the tasks of medium difficulty on a few assets of each family."""
     names = [one.name for one in tasks() if one.difficulty == "medium"][: 1 if quick else None]
     units = [(name, seed, count) for name in names for seed in _PEOPLE[: 1 if quick else None] for count in COUNTS]
-    rows = list(run_units("unnamed", show_steps, units, tell))
+    rows = list(run_units("transfer", show_steps, units, tell))
     shares = {count: [row for row in rows if row["shown"] == count] for count in COUNTS}
     lines: list[tuple[Cell, ...]] = []
     for name in names:
@@ -47,7 +47,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         for k, least in TO_REACH.items()
     ]
     table = Table("Exact results", columns, tuple(lines))
-    return Result("unnamed", "Start without names", (table,), tuple(goals), _NOTES, tuple(rows))
+    return Result("transfer", "Start without names", (table,), tuple(goals), _NOTES, tuple(rows))
 
 
 def show_steps(name: str, seed: int, count: int) -> dict[str, Any]:
