@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Orient, Program, to_canonical_frame
 from meshforge.project import Project, ProjectReview, run_with_manual_edits
 from meshforge.rendering import Up, draw_before_after, make_contact_sheet, render, write_png
-from meshforge.signoff import CandidateQuestion, HullPlace, OrientationQuestion, ResultQuestion, ReviewQuestion
+from meshforge.signoff import HullPlace, ReviewQuestion
 from meshforge.signoff.question import RIGHT
 from meshforge.symbolic import SymbolicMesh
 
@@ -47,14 +47,14 @@ def _draw(project: Project, found: ProjectReview, question: ReviewQuestion) -> I
         yield name, _draw_sheet(meshes, question.hulls)
     elif asset not in meshes:
         return
-    elif isinstance(question, CandidateQuestion) and program and question.rule:
+    elif question.kind in ("candidate", "label") and program and question.rule:
         mesh, up = project.mesh_before_rule(asset, question.rule, program, meshes), _up(project.orientation)
         for number, choice in enumerate(question.choices, 1):
             chosen, title = frozenset(choice.select or ()), f"choice {number}"
             yield f"{name}-choice-{number}", render(mesh, highlight=chosen, size=_SIZE, title=title, up=up)
-    elif isinstance(question, ResultQuestion) and program and question.choice(RIGHT):
+    elif question.kind == "result" and program and question.choice(RIGHT):
         yield name, _draw_result(project, asset, meshes[asset], program)
-    elif isinstance(question, OrientationQuestion):
+    elif question.kind == "orientation":
         for choice in question.choices:
             orient = choice.orient or found.state.frame.orient
             mesh, up = to_canonical_frame(meshes[asset], orient, project.settings.thresholds.contact)[0], _up(orient)

@@ -22,7 +22,7 @@ from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review
-from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply, question_of
+from meshforge.signoff import ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import WRONG
 
 _FEW_LISTED = 3  # assets that need review and are named beside a question
@@ -99,7 +99,7 @@ class ReviewSession:
         self._project.reply(question, reply)
         for sentence in find_contradictions(self.found.state, question, reply):
             remark(sentence)
-        if isinstance(question, ResultQuestion) and reply.choice == WRONG and not (reply.selections or reply.labels):
+        if question.kind == "result" and reply.choice == WRONG and not (reply.selections or reply.labels):
             word, asset = shlex.quote(str(self._project.folder)), shlex.quote(question.asset)
             show_it = f"meshforge demonstrate {word} {asset} 'HULLS => ACTION' ..."
             remark(f"{question.asset} needs review; to show what is meant there: {show_it}")

@@ -9,11 +9,7 @@ __getattr__, __all__ = export_lazily(
     {
         "assessment": "THRESHOLD Assessment AssetConfidence Reason ReasonKind ReviewState",
         "outliers": "EditMeasures describe_outliers measure_edit",
-        "question": (
-            "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion CandidateQuestion "
-            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply MistakeQuestion "
-            "question_of"
-        ),
+        "question": "ExclusionReason HullPlace ReviewChoice ReviewQuestion ReviewReply question_of",
         "review": "assess_asset review_family",
     },
 )

@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.signoff.confidence import LEAST
 from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
-from meshforge.signoff.question import GroupQuestion, HullPlace, ReviewChoice, identify, price_group
+from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, identify, price_group
 
 MOST_HULLS = 24
 """Hulls of a group."""
@@ -102,12 +102,12 @@ def _best_of(family: FamilyRun, label: str, some: Sequence[_Suspect]) -> _Lookal
     return best
 
 
-def ask_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[GroupQuestion]:
+def ask_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[ReviewQuestion]:
     """Ask about the hulls that matter most for some assets, each group as large as is worth its seconds."""
     yield from (_ask_group(family, group) for group in _find_groups(family, open_assets))
 
 
-def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
+def ask_clusters(family: FamilyRun) -> Iterator[ReviewQuestion]:
     """Ask once about look-alikes of several assets, which err together, whose labels decide edits that nobody looked
     at, however sure each edit is by itself."""
     known = family.state.reviewed_assets | family.state.excluded.keys()
@@ -117,7 +117,7 @@ def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
             yield _ask_group(family, group)
 
 
-def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
+def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> ReviewQuestion:
     labels_of_group = (family.state.meshes[asset].hull_of(hull).annotation for asset, hull in group.hulls)
     names = Counter(label.name if label else "nothing" for label in labels_of_group)
     counts = dict(sorted(names.items(), key=lambda one: (-one[1], one[0])))
@@ -129,7 +129,9 @@ def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
     else:
         text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    question = identify(GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
+    question = identify(
+        ReviewQuestion("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+    )
     other = _find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
     return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
 

@@ -11,7 +11,7 @@ from meshforge.geometry import Floats
 from meshforge.label_model.describe import find_up, rotation_to_z, up_in_file
 from meshforge.language import Orient, find_rotation
 from meshforge.signoff.assessment import ReviewState
-from meshforge.signoff.question import NO, YES, YES_OR_NO, OrientationQuestion, ReviewChoice, identify
+from meshforge.signoff.question import NO, YES, YES_OR_NO, ReviewChoice, ReviewQuestion, identify
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import OrientationSuggestion
 
@@ -21,14 +21,14 @@ _NEAR = 10.0  # degrees by which an asset may still lean where landmarks set it 
 
 def ask_orientation(
     suggested: OrientationSuggestion | None, state: ReviewState, gain: float
-) -> Iterator[OrientationQuestion]:
+) -> Iterator[ReviewQuestion]:
     """Ask whether all assets are to be turned as is suggested, where it is worth asking."""
     asset = find_turned_asset(state, suggested) if suggested else None
     if suggested and asset:
         text = f"Should {asset} stand like this?"
         yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
         choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
-        yield identify(OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
+        yield identify(ReviewQuestion("orientation", text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> str | None:
