@@ -37,7 +37,7 @@ def list_stubs() -> Iterator[tuple[Path, str]]:
         offers = read_offers(tree, ".".join(path.relative_to(SOURCE).parts[:-1]))
         eager = [node for node in tree.body if isinstance(node, ast.ImportFrom) and _is_offered(node)]
         if offers:
-            head = _HEAD + "__version__: str\n" * (path.parent.parent == SOURCE)
+            head = _HEAD + "__version__: str\n__all__: list[str]\n" * (path.parent.parent == SOURCE)
             yield path.with_suffix(".pyi"), head + "".join(map(_format_import, [*eager, *offers]))
 
 

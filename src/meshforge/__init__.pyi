@@ -1,5 +1,6 @@
 # Written by `python -m script.stubs`.
 __version__: str
+__all__: list[str]
 from meshforge.common import MeshForgeError as MeshForgeError
 from meshforge.formats import convert as convert
 from meshforge.formats import decompose as decompose

@@ -11,10 +11,9 @@ __getattr__, __all__ = export_lazily(
         "base": "Check CheckFindings CheckSubject Measure",
         "clearance": "OF_EDIT Clearance measure_kept_space",
         "engine_load": "EngineLoad",
-        "examination": "CheckOptions Examination check draw_examination examine_mesh",
+        "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
         "physics.simulation": "BEFORE Physics",
-        "registry": "CHECKS MEASURES",
         "meshforge.engines": "Finding Severity",
     },
 )

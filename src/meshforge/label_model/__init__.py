@@ -13,8 +13,9 @@ __getattr__, __all__ = export_lazily(
         "odds": "LabelBeliefs LabelOdds is_human",
         "posterior": "FamilyModel FamilyPosterior model_family",
         "sides": "correct_upright find_doubtful_sides",
-        "similar": "find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
-        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
+        "table": (
+            "FamilyTable Observations evidence_beside_rebuilt evidence_of find_similar metric_weights reference_label"
+        ),
     },
 )

@@ -16,7 +16,7 @@ from meshforge.signoff.program_run import ProgramRun, select_by
 from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, ReviewChoice, ReviewQuestion, identify
 from meshforge.symbolic import HUMAN_SOURCES, mask_of
 from meshforge.synthesis import Example, LikelyMistake, Nearest, Options, Repair, find_mistake
-from meshforge.synthesis.likely_mistakes import MOST_MISTAKES
+from meshforge.synthesis.diagnosis import MOST_MISTAKES
 
 _LEAST_SHARE = 0.05  # from which on a slip is asked about
 _LEAST_CHANCE = 0.05  # of another label, from which on it is offered

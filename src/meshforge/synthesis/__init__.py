@@ -17,7 +17,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "questions": "Answer Hint LabelFix OpenRule Repair",
         "candidates.rank": "BELIEVABLE",
-        "likely_mistakes": "LikelyMistake find_mistake",
+        "diagnosis": "LikelyMistake find_mistake",
         "task": "begin_replay memoize",
     },
 )

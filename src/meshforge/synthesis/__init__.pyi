@@ -24,7 +24,7 @@ from meshforge.synthesis.questions import LabelFix as LabelFix
 from meshforge.synthesis.questions import OpenRule as OpenRule
 from meshforge.synthesis.questions import Repair as Repair
 from meshforge.synthesis.candidates.rank import BELIEVABLE as BELIEVABLE
-from meshforge.synthesis.likely_mistakes import LikelyMistake as LikelyMistake
-from meshforge.synthesis.likely_mistakes import find_mistake as find_mistake
+from meshforge.synthesis.diagnosis import LikelyMistake as LikelyMistake
+from meshforge.synthesis.diagnosis import find_mistake as find_mistake
 from meshforge.synthesis.task import begin_replay as begin_replay
 from meshforge.synthesis.task import memoize as memoize

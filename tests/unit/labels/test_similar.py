@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.geometry import Ints
 from meshforge.label_model import FamilyTable, MeshDescriber, find_similar
-from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS
+from meshforge.label_model.table import OTHER_STEPS, OWN_STEPS
 from meshforge.symbolic import Hull, SymbolicMesh
 from script.families.chairs import _list_chairs
 

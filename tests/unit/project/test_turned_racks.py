@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.cli.review_pictures import draw_question
+from meshforge.cli.review_session import draw_question
 from meshforge.project import Project
 from meshforge.signoff import ReviewQuestion, ReviewReply
 from meshforge.signoff.question import NO, YES
