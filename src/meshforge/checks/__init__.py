@@ -1,7 +1,5 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
-from __future__ import annotations
-
 from meshforge.checks.fix import FixResult, fix
 from meshforge.common.exports import export_lazily
 

@@ -1,7 +1,5 @@
 """Physics engines: what each takes of hulls, and what it makes of the rest."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

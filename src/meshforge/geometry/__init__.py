@@ -1,7 +1,5 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -1,7 +1,5 @@
 """How probable it is that each edit of a family is right, why it may not be, and what to ask a person next."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

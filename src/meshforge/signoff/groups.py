@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from meshforge.signoff.confidence import LEAST
+from meshforge.signoff.assessment import LEAST
 from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
 from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, identify, price_group
 

@@ -1,7 +1,5 @@
 """Programs from demonstrations: steps, replay, the search for extractors, and what it comes to."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

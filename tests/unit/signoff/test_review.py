@@ -18,7 +18,7 @@ from meshforge.signoff import (
     ReviewState,
     review_family,
 )
-from meshforge.signoff.confidence import NO_EDIT
+from meshforge.signoff.assessment import NO_EDIT
 from meshforge.signoff.program_run import run_on_asset
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
 from meshforge.symbolic import Label, SymbolicMesh

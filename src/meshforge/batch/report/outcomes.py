@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.engine_load import examine_file
+from meshforge.batch.check import examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RuleEffect, RunSummary, status_of
 from meshforge.batch.provenance import read_stamp
