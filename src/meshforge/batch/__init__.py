@@ -19,8 +19,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "lock": "hold_lock",
         "outcome": (
-            "MOST_SHOWN AssetOutcome Failed NeedsReview RuleEffect RunSummary Skipped describe_alarms status_of "
-            "to_json_line"
+            "MOST_SHOWN AssetOutcome Failed NeedsReview RuleEffect RunSummary Skipped describe_alarms to_json_line"
         ),
         "preparation.cut": "HullParts cut_hull replace_hulls",
         "preparation.decompose": "Concave DecompositionResult decompose_asset replace_concave",

@@ -40,7 +40,6 @@ from meshforge.batch.outcome import RuleEffect as RuleEffect
 from meshforge.batch.outcome import RunSummary as RunSummary
 from meshforge.batch.outcome import Skipped as Skipped
 from meshforge.batch.outcome import describe_alarms as describe_alarms
-from meshforge.batch.outcome import status_of as status_of
 from meshforge.batch.outcome import to_json_line as to_json_line
 from meshforge.batch.preparation.cut import HullParts as HullParts
 from meshforge.batch.preparation.cut import cut_hull as cut_hull
