@@ -1,7 +1,12 @@
 # Written by `python -m script.stubs`.
 from meshforge.synthesis.asset_selection import choose_first_demonstration as choose_first_demonstration
+from meshforge.synthesis.demonstration import Answer as Answer
 from meshforge.synthesis.demonstration import Demonstration as Demonstration
 from meshforge.synthesis.demonstration import Example as Example
+from meshforge.synthesis.demonstration import Hint as Hint
+from meshforge.synthesis.demonstration import LabelFix as LabelFix
+from meshforge.synthesis.demonstration import OpenRule as OpenRule
+from meshforge.synthesis.demonstration import Repair as Repair
 from meshforge.synthesis.demonstration import Step as Step
 from meshforge.synthesis.demonstration import strip_each as strip_each
 from meshforge.synthesis.learn import synthesize as synthesize
@@ -18,11 +23,6 @@ from meshforge.synthesis.outcome import NeedsRepair as NeedsRepair
 from meshforge.synthesis.outcome import NoProgram as NoProgram
 from meshforge.synthesis.outcome import TimedOut as TimedOut
 from meshforge.synthesis.outcome import outcome_to_json as outcome_to_json
-from meshforge.synthesis.questions import Answer as Answer
-from meshforge.synthesis.questions import Hint as Hint
-from meshforge.synthesis.questions import LabelFix as LabelFix
-from meshforge.synthesis.questions import OpenRule as OpenRule
-from meshforge.synthesis.questions import Repair as Repair
 from meshforge.synthesis.candidates.rank import BELIEVABLE as BELIEVABLE
 from meshforge.synthesis.diagnosis import LikelyMistake as LikelyMistake
 from meshforge.synthesis.diagnosis import find_mistake as find_mistake
