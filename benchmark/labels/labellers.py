@@ -123,7 +123,8 @@ def _notes(scores: Sequence[Score], settings: VlmSettings | None) -> Iterator[st
         )
     else:
         yield (
-            f"The model: {settings.model}, mode {settings.mode}, at temperature 0; no description, no example. Answers "
-            "of each repeat are kept apart. Words that are no labels are asked for once more, and then count as none."
+            f"The model: {settings.model}, asked about all hulls of a mesh at once, as in the paper, at temperature 0; "
+            "no description, no example. Answers of each repeat are kept apart. Words that are no labels are asked for "
+            "once more, and then count as none."
         )
     yield "The paper's figures are on PartNet and YCB assets and other labels: other data."

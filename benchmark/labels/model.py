@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,10 +12,10 @@ from time import perf_counter
 from benchmark.journal import JOURNALS
 from benchmark.labels.families import Family
 from benchmark.labels.methods import LabellerOutput, Labels, Method
+from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint
-from meshforge.labels.vlm.mesh_asker import MeshAsker, VlmAnswers
-from meshforge.labels.vlm.prompt import PromptConfig, build_questions
+from meshforge.labels.vlm.prompt import MeshHulls, PromptConfig, build_questions
 from meshforge.labels.vlm.question import Reply, VlmQuestion
 from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
@@ -44,7 +45,7 @@ class ModelLabeller:
 
     @property
     def method(self) -> Method:
-        return Method(f"{self.settings.model}, {self.settings.mode}", self._ask)
+        return Method(self.settings.model, self._ask)
 
     def _ask(self, family: Family, repeat: int) -> LabellerOutput:
         """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
@@ -53,17 +54,18 @@ class ModelLabeller:
         manner = PromptConfig(family.vocabulary, self.settings.model_copy(update={"about": "", "descriptions": {}}))
         started = perf_counter()
         client = CostClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
-        with closing(client), closing(MeshAsker(client, manner)) as asker:
-            drawn = [family.bare[place] for place in family.drawn]
-            pending = [asker.ask([*mesh.index], build_questions(mesh, [*mesh.index], manner)) for mesh in drawn]
+        meshes = [family.bare[place] for place in family.drawn]
+        with closing(client), ThreadPoolExecutor(self.settings.concurrency) as threads:
+            drawn = (build_questions([MeshHulls("", mesh, [*mesh.index])], manner) for mesh in meshes)
+            pending = [threads.submit(ask_questions, client, manner, questions) for questions in drawn]
             said = [one.result() for one in pending]
         self.spent += client.usage.cost or 0.0
-        labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))
+        labels = tuple(_labels(mesh, one) for mesh, one in zip(meshes, said, strict=True))
         why = next((problem for one in said for problem in one.failed), "")
         cost = client.cost if endpoint.is_priced else None
         return LabellerOutput(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
 
 
 def _labels(mesh: SymbolicMesh, said: VlmAnswers) -> Labels:
-    found = {name: label.name for name, label in said.labels.items()}
-    return tuple(found.get(hull.name) for hull in mesh.hulls)
+    found, left = said.labels.get("", {}), said.open.get("", {})
+    return tuple(None if hull.name in left else found[hull.name].name for hull in mesh.hulls)

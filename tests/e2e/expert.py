@@ -16,7 +16,7 @@ from meshforge.common import MeshForgeError
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.project import Project
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import NO_PART, SymbolicMesh
 from tests.e2e.hand import Hand
 from tests.e2e.studio import Studio
 from tests.e2e.walk import guessed, stepped
@@ -159,7 +159,7 @@ class Expert:
         for (asset, word), names in wanted.items():
             self.open_asset(asset)
             self.choose(asset, frozenset(names))
-            self.person.press(str(words.index(word) + 1))
+            self.person.press("0" if word == NO_PART else str(words.index(word) + 1))
 
     def show(self, asset: str) -> None:
         """Demonstrate on an asset all that is wanted of it, where earlier demonstrations say what the rules do."""

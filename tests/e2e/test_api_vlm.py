@@ -31,7 +31,7 @@ def asking(tmp_path: Path, server: Server | None, *words: str) -> Iterator[Studi
 base_url = "{server.base_url}"
 model = "{server.model}"
 key_env = "{VARIABLE}"
-mode = "cheap"
+every_hull = true
 size = 256
 names = true
 input_price = 1.0
@@ -56,13 +56,13 @@ def test_the_cost_comes_first_then_the_labels_as_one_step(tmp_path: Path, monkey
     monkeypatch.setenv(VARIABLE, KEY)
     with serving(right) as server, asking(tmp_path, server) as studio, studio.page() as page:
         told = model(studio)
-        assert (told["name"], told["mode"], told["max_cost"], told["why"]) == (server.model, "cheap", None, None)
-        forecast = run(studio, page, kind="forecast", mode="cheap")
+        assert (told["name"], told["every_hull"], told["max_cost"], told["why"]) == (server.model, True, None, None)
+        forecast = run(studio, page, kind="forecast", every_hull=True)
         assert forecast["message"].startswith(f"{COUNT} questions with ")
         assert "about $0." in forecast["message"]
         assert server.asked == []
         before = tree(tmp_path / "p/labels")
-        job = run(studio, page, kind="ask", mode="cheap")
+        job = run(studio, page, kind="ask", every_hull=True)
         assert (job["state"], job["done"], job["total"]) == ("done", COUNT, COUNT)
         assert job["message"].startswith(f"{COUNT * len(truth('t000.obj'))} labels taken; $")
         assert len(server.answered) == COUNT
@@ -73,9 +73,9 @@ def test_the_cost_comes_first_then_the_labels_as_one_step(tmp_path: Path, monkey
         assert tree(tmp_path / "p/labels") == before
         ok(studio.post("/api/redo"))
         assert tree(tmp_path / "p/labels") == after
-        again = run(studio, page, kind="forecast", mode="cheap")
+        again = run(studio, page, kind="forecast", every_hull=True)
         assert again["message"].startswith("Every question has its answer already")
-        assert run(studio, page, kind="ask", mode="cheap")["state"] == "done"
+        assert run(studio, page, kind="ask", every_hull=True)["state"] == "done"
         assert len(server.answered) == COUNT
 
 
@@ -85,20 +85,20 @@ def test_without_a_key_or_a_model_it_is_said_and_nothing_begins(
     monkeypatch.delenv(VARIABLE, raising=False)
     with serving(right) as server, asking(tmp_path / "a", server) as studio:
         assert VARIABLE in model(studio)["why"]
-        refused = studio.post("/api/jobs", {"kind": "ask", "mode": "cheap"})
+        refused = studio.post("/api/jobs", {"kind": "ask", "every_hull": True})
         assert refused.status_code == 400
         assert VARIABLE in refused.text
         assert server.asked == []
     with asking(tmp_path / "b", None) as studio:
         assert model(studio) is None
-        assert studio.post("/api/jobs", {"kind": "forecast", "mode": "cheap"}).status_code == 400
+        assert studio.post("/api/jobs", {"kind": "forecast", "every_hull": True}).status_code == 400
 
 
 def test_a_person_labels_meanwhile_and_keeps_what_was_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(VARIABLE, KEY)
     with serving(right) as server, asking(tmp_path, server) as studio, studio.page() as page:
         server.delay = 1.0
-        job = ok(studio.post("/api/jobs", {"kind": "ask", "mode": "cheap"}))["id"]
+        job = ok(studio.post("/api/jobs", {"kind": "ask", "every_hull": True}))["id"]
         studio.edit("label", hulls={"t001.obj": ["crumb"]}, label="leg")
         assert page.job(job)["state"] == "done"
         saved = (tmp_path / "p/labels/t001.obj.json").read_text(encoding="utf-8")

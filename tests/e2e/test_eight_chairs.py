@@ -60,7 +60,7 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, brow
         show_alike(person, leg, "m", "e", steps=2)
         expert.open_asset(SECOND)
         expert.show(SECOND)
-        expert.answer_all(lambda hello: _is_honest(person, hello))
+        expert.answer_all(lambda hello: is_honest(person, hello))
         person.press("Alt+4")
         person.sees("Signed off 8 of 8")
         assert person.page.locator("[data-mood=good]").count()
@@ -82,7 +82,7 @@ def labels_of(folder: Path, asset: str) -> dict[str, str]:
     return {hull: label.name for hull, label in Project.open(folder).labels(asset).labels.items()}
 
 
-def _is_honest(person: Hand, hello: dict[str, Any]) -> None:
+def is_honest(person: Hand, hello: dict[str, Any]) -> None:
     """Nothing is green while something is held."""
     if hello["assessment"] and hello["assessment"]["need_review"]:
         assert not person.page.locator("[data-mood=good]").count()

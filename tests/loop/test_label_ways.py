@@ -106,23 +106,24 @@ def test_two_tables_by_hand_label_the_rest(folder: Path) -> None:
 
 
 def test_a_model_that_often_fails_labels_all(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One that is right, behind a server of which every fifth answer is a fault."""
+    """One that is right, behind a server of which every fifth answer is a fault; it is asked about exemplars."""
 
     def answer(asked: Asked) -> str:
-        names = list(TRUTH[asked.asset])
-        return labels_as_json({number: TRUTH[asked.asset][names[number]] for number in asked.numbers})
+        hulls = {number: asked.hulls[number] for number in asked.numbers}
+        return labels_as_json({number: TRUTH[asset][hull] for number, (asset, hull) in hulls.items()})
 
     monkeypatch.setenv("LOOPBACK_API_KEY", KEY)
     project = begin(folder)
     with serving(answer, fault=sometimes(0.2)) as server:
         with project.layout.settings.open("a") as file:
-            file.write('\n[vlm]\nkey_env = "LOOPBACK_API_KEY"\nnames = true\nmode = "cheap"\nsize = 256\n')
+            file.write('\n[vlm]\nkey_env = "LOOPBACK_API_KEY"\nnames = true\nsize = 256\n')
         where = ("--base-url", server.base_url, "--model", server.model)
         planned = meshforge("label", KEPT, "--with", "vlm", *where, "--dry-run", cwd=folder)
         assert server.asked == []
         assert "14 assets" in planned.out
         meshforge("label", KEPT, "--with", "vlm", *where, cwd=folder)
-        assert right(project) == 1.0
+        assert right(project) >= 0.97
         sent = len(server.asked)
+        assert sum(whole for _, _, whole in server.asked) <= 8
         meshforge("label", KEPT, "--with", "vlm", *where, cwd=folder)
         assert len(server.asked) == sent

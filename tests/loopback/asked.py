@@ -71,8 +71,18 @@ class Asked:
     @property
     def asset(self) -> str:
         """The name of the asset, where it is told."""
-        found = re.findall(r"This is '(.*?)'\.", self.text)
-        return found[-1] if found else ""
+        return next((asset for asset, _ in reversed(self.hulls.values())), "")
+
+    @property
+    def hulls(self) -> dict[int, tuple[str, str]]:
+        """The asset and the name of each hull, by its number, where names are told."""
+        found, asset = dict[int, tuple[str, str]](), ""
+        for line in self.text.splitlines():
+            if heading := re.fullmatch(r"This is .*?, '(.*)'\.", line):
+                asset = heading[1]
+            elif row := re.match(r"(\d+) \('(.*)'\): size", line):
+                found[int(row[1])] = asset, row[2]
+        return found
 
     @property
     def is_again(self) -> bool:

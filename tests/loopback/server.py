@@ -23,7 +23,8 @@ _PICTURE = 800  # tokens
 
 def labels_as_json(labels: Mapping[int, str]) -> str:
     """An answer of the form that is asked for."""
-    return json.dumps({"hulls": [{"number": number, "label": label} for number, label in labels.items()]})
+    rows = [{"number": number, "label": label} for number, label in labels.items()]
+    return json.dumps({"object": "a thing", "parts": sorted({*labels.values()}), "hulls": rows})
 
 
 @dataclass
@@ -86,7 +87,7 @@ class Server:
             case Fault("status", code, headers, error):
                 return (code, headers, json.dumps(error)), False
             case Fault("garbage"):
-                return (200, {}, "<html>All our servers are busy</html>"), False
+                return (200, fault.headers, "<html>All our servers are busy</html>"), False
             case Fault("slow"):
                 self.closing.wait(self.slow)
                 return None, False

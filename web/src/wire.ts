@@ -522,7 +522,7 @@ export interface ApplyJob {
  */
 export interface AskJob {
   kind: "ask";
-  mode: "cheap" | "balanced" | "exact";
+  every_hull: boolean;
   max_cost?: number | null;
 }
 /**
@@ -1268,11 +1268,12 @@ export interface FolderView {
   files: number;
 }
 /**
- * Work out what asking a model for labels would send and cost, without sending anything.
+ * Work out what asking a model for labels would send and cost, without sending anything. every_hull: whether it is
+ * asked about every hull, or about exemplars of which labels are propagated.
  */
 export interface ForecastJob {
   kind: "forecast";
-  mode: "cheap" | "balanced" | "exact";
+  every_hull: boolean;
 }
 /**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.
@@ -1322,13 +1323,13 @@ export interface LabelSources {
   model: Model | null;
 }
 /**
- * The model that can be asked for labels. mode, max_cost: as set in meshforge.toml; why: the reason that it cannot
- * be asked, null where it can.
+ * The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
+ * cannot be asked, null where it can.
  */
 export interface Model {
   name: string;
   host: string;
-  mode: "cheap" | "balanced" | "exact";
+  every_hull: boolean;
   max_cost?: number | null;
   why?: string | null;
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
@@ -16,13 +16,16 @@ from meshforge.cli.label_by_hand import label_by_hand, rename_labels
 from meshforge.cli.label_report import LabelPrinter, print_changes, print_proposals
 from meshforge.cli.label_vlm import label_with_vlm, print_forecast
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, first_validation_error
+from meshforge.common import UsageError, escape_name, first_validation_error
 from meshforge.labels import (
     LABELERS,
     AllLabeler,
     FileLabeler,
     Labeler,
     LabelFileOptions,
+    LabelResult,
+    LikeLabeler,
+    LikeMismatchError,
     NameLabeler,
     VlmLabeler,
     approve_host,
@@ -39,8 +42,11 @@ _ONLY_FOR = {
     "pattern": ("names", "file", "all"),
     "model": ("vlm",),
     "base_url": ("vlm",),
+    "every_hull": ("vlm",),
     "mode": ("vlm",),
     "max_cost": ("vlm",),
+    "like": ("like",),
+    "words": ("like",),
 }
 """The sources of labels that an option is for."""
 
@@ -88,12 +94,23 @@ class LabelArguments:
         ),
     ] = None
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
+    like: Annotated[
+        str | None,
+        typer.Option("--like", metavar="PROJECT|sample:NAME", help="Take labels of another project or bundled family."),
+    ] = None
+    words: Annotated[
+        list[str] | None,
+        typer.Option("--map", metavar="THERE=HERE", help="The label here for one of --like: front=door; repeatable."),
+    ] = None
     model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
     base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
-    mode: Annotated[
-        Literal["cheap", "balanced", "exact"] | None,
-        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
+    every_hull: Annotated[
+        bool | None,
+        typer.Option(
+            "--every-hull", help="Let --with vlm ask about every hull, not a few whose labels are propagated."
+        ),
     ] = None
+    mode: Annotated[str | None, typer.Option("--mode", hidden=True)] = None
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
@@ -131,13 +148,18 @@ class LabelArguments:
 
     def to_labeler(self, project: Project) -> Labeler:
         """Return what gives the labels. Raises UsageError for an option that it does not know, or a wrong one."""
-        labeler = make_labeler(self.source)
-        for name, option in options.list_typed(self.context):
-            sources = _ONLY_FOR.get(name, (self.source,))
-            if self.source not in sources:
+        typed = dict(options.list_typed(self.context))
+        source = "like" if self.like and "source" not in typed else self.source
+        labeler = make_labeler(source)
+        for name, option in typed.items():
+            sources = _ONLY_FOR.get(name, (source,))
+            if source not in sources:
                 wanted = " and ".join(f"--with {one}" for one in sources)
                 raise UsageError(f"{option} is for {wanted}", remedy="Leave it out.")
-        meanings = tuple(map(_parse_meaning, self.pattern or ()))
+        meanings = tuple(_parse_meaning("--pattern", text, '"*knob*=handle"') for text in self.pattern or ())
+        if isinstance(labeler, LikeLabeler):
+            words = dict(_parse_meaning("--map", text, "front=door") for text in self.words or ())
+            return LikeLabeler(self.like, words)
         if isinstance(labeler, NameLabeler):
             return NameLabeler(meanings)
         if isinstance(labeler, FileLabeler | AllLabeler):
@@ -149,7 +171,7 @@ class LabelArguments:
         return labeler
 
     def _read_vlm_settings(self, project: Project) -> VlmSettings:
-        names = ("model", "base_url", "mode", "max_cost")
+        names = ("model", "base_url", "every_hull", "mode", "max_cost")
         given = {name: value for name in names if (value := getattr(self, name)) is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
@@ -157,10 +179,11 @@ class LabelArguments:
             raise UsageError(first_validation_error(error)) from error
 
 
-def _parse_meaning(text: str) -> tuple[str, str]:
+def _parse_meaning(option: str, text: str, example: str) -> tuple[str, str]:
     pattern, sign, label = text.rpartition("=")
     if not sign or not pattern.strip():
-        raise UsageError(f"--pattern {text}: it needs a pattern and a label", remedy='Write it so: "*knob*=handle".')
+        what = "pattern" if option == "--pattern" else "label there"
+        raise UsageError(f"{option} {text}: it needs a {what} and a label", remedy=f"Write it so: {example}.")
     return pattern.strip(), label.strip()
 
 
@@ -195,8 +218,8 @@ def label(given: LabelArguments) -> None:
     if given.dry_run and isinstance(labeler, VlmLabeler):
         print_forecast(project, labeler, words, execution, json=given.json)
     elif given.dry_run:
-        found = project.label(labeler, vocabulary=words, dry_run=True, execution=execution, stage=progress).proposals
-        print_proposals(found, json=given.json)
+        found = _run(project, labeler, json=given.json, vocabulary=words, dry_run=True, execution=execution)
+        print_proposals(found.proposals, json=given.json)
     else:
         if words is not None:
             project.set_vocabulary(words)
@@ -211,10 +234,24 @@ def label(given: LabelArguments) -> None:
 def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
     if len(project.assets()) > 1:
         remark(project.plan_labels())
-    result = project.label(labeler, execution=execution, stage=progress, report=printer.print)
+    result = _run(project, labeler, json=printer.json, execution=execution, report=printer.print)
     printer.summarize()
     if not printer.json:
         print_changes(project, labeler, result)
     elif labeler.replaces:
         more = {"alike": result.alike, "next": result.next} if labeler.name in ("all", "propagate") else {}
         print_json({"changes": [asdict(change) for change in result.changes]} | more, compact=True)
+
+
+def _run(project: Project, labeler: Labeler, *, json: bool, **options: Any) -> LabelResult:
+    """Label a project, and print what is to be known of it; of another kind than it should be, which are nearest."""
+    try:
+        result = project.label(labeler, stage=progress, **options)
+    except LikeMismatchError as error:
+        if json:
+            nearest = [{"family": name, "distance": distance} for name, distance in error.kinds]
+            print_json({"refused": error.problem, "nearest": nearest, "remedy": error.remedy}, compact=True)
+        raise
+    for note in result.notes:
+        remark(escape_name(note))
+    return result

@@ -31,6 +31,7 @@ _SOURCE_WORDS = {
     "file": "files",
     "name": "names",
     "propagated": "propagation",
+    "like": "another family",
     "step": "steps shown",
     "class": "likeness to steps shown",
     "rebuild": "rebuilt bodies",
@@ -205,8 +206,6 @@ def print_changes(project: Project, labeler: Labeler, result: LabelResult) -> No
     """Print which labels were replaced, which may be two names of one part, and what to label next."""
     if labeler.replaces:
         _print_replaced(result)
-    if result.note:
-        typer.echo(f"{result.note} Label a hull that is something else, too.")
     for one, other in result.alike:
         words = ",".join(word for word in project.vocabulary if word != other)
         command = f"meshforge label {project.folder} --with propagate --vocabulary {words}"

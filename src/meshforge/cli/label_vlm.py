@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import sys
-import threading
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING
 
 import typer
 
@@ -16,11 +13,8 @@ from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import join_names, pluralize
-from meshforge.labels import Endpoint, VlmLabeler, approve_host, check_approved, describe_sending, is_approved
+from meshforge.labels import Endpoint, Usage, VlmLabeler, approve_host, check_approved, describe_sending, is_approved
 from meshforge.project import Project
-
-if TYPE_CHECKING:
-    from meshforge.labels import Usage
 
 _MAX_NAMES = 8  # names in a row
 
@@ -36,8 +30,9 @@ def label_with_vlm(
     _ask_approval(endpoint, labeler.typed)
     check_approved(endpoint, labeler.typed)
     remark(describe_sending(endpoint))
-    with catch_interrupt() as stop, _announce_stop(stop, "stopping: waiting for the answers that are under way"):
-        project.label(labeler, execution=replace(execution, stop=stop), stage=progress, report=printer.print)
+    with catch_interrupt() as stop:
+        announced = _announce_stop(stop, "stopping: waiting for the answers that are under way")
+        project.label(labeler, execution=replace(execution, stop=announced), stage=progress, report=printer.print)
     ended = labeler.result.ended
     if ended:
         printer.failed = True
@@ -55,22 +50,16 @@ def _ask_approval(endpoint: Endpoint, typed: Collection[str]) -> None:
         approve_host(endpoint.host)
 
 
-@contextmanager
-def _announce_stop(stop: Callable[[], bool], text: str) -> Iterator[None]:
-    """Within the block, say so as soon as a stop is wanted, whatever is waited for then."""
-    over = threading.Event()
+def _announce_stop(stop: Callable[[], bool], text: str) -> Callable[[], bool]:
+    """The same, which says so when a stop is wanted for the first time; it is asked all the time."""
+    texts = [text]
 
-    def wait() -> None:
-        while not over.wait(0.1):
-            if stop():
-                remark(text)
-                return
+    def wrapped() -> bool:
+        if stop() and texts:
+            remark(texts.pop())
+        return stop()
 
-    threading.Thread(target=wait, daemon=True).start()
-    try:
-        yield
-    finally:
-        over.set()
+    return wrapped
 
 
 def _print_end(project: Project, labeler: VlmLabeler, *, json: bool) -> None:
@@ -81,7 +70,7 @@ def _print_end(project: Project, labeler: VlmLabeler, *, json: bool) -> None:
         return
     typer.echo(_describe_usage(found.usage))
     if found.usage.answered + found.usage.cached:
-        typer.echo(f"what was sent and what came back: {project.layout.vlm / 'pages'}")
+        typer.echo(f"what was sent and what came back: {project.layout.vlm}")
     if found.blind:
         remark("The model took a red picture for another one: it may not see pictures at all.")
     if found.ended:
@@ -96,14 +85,11 @@ def _describe_usage(usage: Usage) -> str:
     parts += [f"{pluralize(usage.retries, 'attempt')} repeated"] if usage.retries else []
     tokens = f"{usage.usage.input:,} tokens in, {usage.usage.output:,} out"
     tokens += " (estimated, since the server does not say)" if usage.usage.estimated else ""
-    return f"{', '.join(parts)}; {tokens}; {_describe_cost(usage)}"
-
-
-def _describe_cost(usage: Usage) -> str:
-    if usage.cost is None:
-        return "cost not known: write input_price and output_price into [vlm]"
-    lost = f", and up to ${usage.perhaps:.4f} should {pluralize(usage.lost, 'lost attempt')} be charged for"
-    return f"${usage.cost:.4f}{lost if usage.lost else ''}"
+    cost = "cost not known: write input_price and output_price into [vlm]"
+    if usage.cost is not None:
+        lost = f", and up to ${usage.perhaps:.4f} should {pluralize(usage.lost, 'lost attempt')} be charged for"
+        cost = f"${usage.cost:.4f}{lost if usage.lost else ''}"
+    return f"{', '.join(parts)}; {tokens}; {cost}"
 
 
 def print_forecast(
@@ -123,8 +109,9 @@ def print_forecast(
     if json:
         print_json(asdict(found), compact=True)
         return
-    hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, 'hull')} to be labelled"
-    typer.echo(f"{found.model} at {found.host}, mode {found.mode}: {hulls}")
+    kind = "hull" if found.every_hull else "exemplar"
+    hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, kind)} to be labelled"
+    typer.echo(f"{found.model} at {found.host}: {hulls}")
     known = f"; {found.known} more have their answer already" if found.known else ""
     fresh = found.questions - found.known
     typer.echo(f"would send {pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')}{known}")

@@ -9,11 +9,14 @@ from meshforge.label_model.describe import remember_descriptor as remember_descr
 from meshforge.label_model.odds import LabelBeliefs as LabelBeliefs
 from meshforge.label_model.odds import LabelOdds as LabelOdds
 from meshforge.label_model.odds import is_human as is_human
+from meshforge.label_model.posterior import MOST_LIKELY as MOST_LIKELY
 from meshforge.label_model.posterior import FamilyModel as FamilyModel
 from meshforge.label_model.posterior import FamilyPosterior as FamilyPosterior
 from meshforge.label_model.posterior import model_family as model_family
 from meshforge.label_model.sides import correct_upright as correct_upright
 from meshforge.label_model.sides import find_doubtful_sides as find_doubtful_sides
+from meshforge.label_model.similar import choose_exemplars as choose_exemplars
+from meshforge.label_model.similar import find_similar as find_similar
 from meshforge.label_model.spans import RebuiltHull as RebuiltHull
 from meshforge.label_model.spans import SpanModel as SpanModel
 from meshforge.label_model.spans import SpanPosterior as SpanPosterior
@@ -21,6 +24,5 @@ from meshforge.label_model.table import FamilyTable as FamilyTable
 from meshforge.label_model.table import Observations as Observations
 from meshforge.label_model.table import evidence_beside_rebuilt as evidence_beside_rebuilt
 from meshforge.label_model.table import evidence_of as evidence_of
-from meshforge.label_model.table import find_similar as find_similar
 from meshforge.label_model.table import metric_weights as metric_weights
 from meshforge.label_model.table import reference_label as reference_label

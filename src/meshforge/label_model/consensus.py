@@ -6,6 +6,7 @@ in a family is found together with the labels by expectation maximization (Dawid
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
@@ -14,7 +15,7 @@ import numpy as np
 
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.lookalikes import PER_MESH, Places
-from meshforge.label_model.table import Bools, FamilyTable, Observations
+from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations
 from meshforge.symbolic import LABEL_SOURCES
 
 WEIGHTS_FILE = "consensus.json"
@@ -81,6 +82,7 @@ def infer_chances(
 
     evidence: (n, labels), more that speaks for each label of each hull [nats].
     """
+    seen = _drop_outweighed(table, seen)
     context = FamilyContext(table, seen)
     chances = by_others = context.start()
     more = np.where(np.isin(np.arange(context.count), seen.codes), 0.0, _NOBODY_GAVE)
@@ -91,6 +93,18 @@ def infer_chances(
         by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
         chances = context.fix_known(softmax(scores.sum(axis=2) + more))
     return chances, by_others
+
+
+def _drop_outweighed(table: FamilyTable, seen: Observations) -> Observations:
+    """What is said but for labels of another family where a hull that looks alike was labelled otherwise by a person,
+    which those, being more, would outweigh: with one of eight real cabinets labelled by hand 0.67 of the others' hulls
+    get the right label so, else 0.32; of tables 0.53 and 0.49, of chairs and cups as many."""
+    like = seen.known & (seen.sources == LABEL_SOURCES.index("like"))
+    if not like.any() or not seen.fixed.any():
+        return seen
+    hulls, apart = (found[:, 0] for found in table.find_lookalikes(seen).nearest(seen.fixed, 1, 1))
+    outweighed = like & (apart <= _ALIKE_NEAREST) & (seen.codes[hulls] != seen.codes)
+    return replace(seen, codes=np.where(outweighed, NO_LABEL, seen.codes))
 
 
 def softmax(scores: Floats) -> Floats:

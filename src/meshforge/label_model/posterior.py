@@ -15,13 +15,15 @@ from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describ
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
 from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
-from meshforge.symbolic import Label, LabelSource, SymbolicMesh
+from meshforge.symbolic import LABEL_SOURCES, Label, LabelSource, SymbolicMesh
 
 _HULLS, _MESHES = 3000, 2000  # that are compared at most, evenly chosen of more
 _NEAR = 0.35  # of the median distance of hulls, within which they stand for each other
 _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which nothing is known counts so much and one
 
 _DIGITS = 3
+MOST_LIKELY = 0.89
+"""How sure a label is at most that follows from hulls of another family alone."""
 _FREE_ODDS = 1.5  # odds of what was said from which on another label must be surer [nats]
 _ALIKE = 0.6  # probability of each of two labels on hulls called the other, together, from which they look alike
 _BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
@@ -74,8 +76,15 @@ class FamilyPosterior:
         rows = self.chances_of(mesh)
         if not self.seen.labels:
             return [None] * len(rows)
-        found = zip(first_greatest(rows).tolist(), rows, strict=True)
+        found = zip(first_greatest(rows).tolist(), np.minimum(rows, self._most), strict=True)
         return [Label(self.seen.labels[place], round(float(row[place]), _DIGITS), source) for place, row in found]
+
+    @cached_property
+    def _most(self) -> Floats:
+        """How sure each label may be (labels,)."""
+        like, count = self.seen.sources == LABEL_SOURCES.index("like"), len(self.seen.labels)
+        theirs, ours = (np.bincount(self.seen.codes[self.seen.known & one], minlength=count) for one in (like, ~like))
+        return np.where((theirs > 0) & (ours == 0), MOST_LIKELY, 1.0)
 
     @cached_property
     def margin(self) -> float:
@@ -123,7 +132,7 @@ class FamilyPosterior:
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
             return given or observed
-        return Label(self.seen.labels[best], round(chance, _DIGITS), "propagated", given)
+        return Label(self.seen.labels[best], round(min(chance, float(self._most[best])), _DIGITS), "propagated", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
         """Return pairs of labels on hulls that look alike, of which hardly any mesh has both: two names of one part?"""

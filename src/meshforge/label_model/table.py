@@ -1,5 +1,4 @@
-"""The hulls of a family as a table of comparable rows, what is said of their labels, and those that look like some, in
-steps from alike to hardly alike."""
+"""The hulls of a family as a table of comparable rows, and what is said of their labels."""
 
 from __future__ import annotations
 
@@ -183,71 +182,3 @@ def reference_label(label: Label | None) -> str | None:
     if label is None or label.source not in GIVEN_SOURCES | CERTAIN_SOURCES:
         return None
     return label.name if label.source in CERTAIN_SOURCES or label.confidence >= UNSURE else None
-
-
-OWN_STEPS = (5.0, 7.0, 9.0, 11.0)
-"""Distances within which hulls of one mesh count as alike. Of hulls within the first, 99 of 100 pairs have one label on
-the bundled chairs, cups and tables; beyond the last, hardly any has."""
-OTHER_STEPS = (8.0, 10.0, 12.0, np.inf)
-"""The same of hulls of other meshes, which differ more; each must be nearer to the hulls than to what they are not."""
-
-
-def find_similar(table: FamilyTable, hulls: Ints, excluded: Bools, others: Ints | None, step: int) -> tuple[Ints, int]:
-    """Return the hulls that look like some of them, these included, in ascending order; and the step that this took.
-
-    A hull of the same mesh is taken where a chain of hulls leads to it, each near to the next. One of another mesh is
-    taken where it is nearer to what was taken of the first meshes than to the rest of these, and within the step.
-
-    hulls: places in the table; excluded: (n,) which are never taken; others: meshes to look in besides those of the
-    hulls, None for none; step: from 0 on, a place in `OWN_STEPS`, or in `OTHER_STEPS` where there are other meshes.
-    Steps that add nothing to the one before are passed over.
-    """
-    steps = range(len(OWN_STEPS if others is None else OTHER_STEPS))
-    step = min(max(step, 0), len(steps) - 1)
-    before = hulls if step == 0 else _find(table, hulls, excluded, others, step - 1)
-    found = _find(table, hulls, excluded, others, step)
-    while len(found) == len(before) and step + 1 < len(steps):
-        step += 1
-        found = _find(table, hulls, excluded, others, step)
-    return found, step
-
-
-def _find(table: FamilyTable, hulls: Ints, excluded: Bools, others: Ints | None, step: int) -> Ints:
-    own = _chain(table, hulls, excluded, OWN_STEPS[step if others is None else 0])
-    if others is None:
-        return own
-    homes = np.unique(table.owner[hulls])
-    taken = np.zeros(len(table.owner), dtype=np.bool_)
-    taken[own] = True
-    rest = np.flatnonzero((np.isin(table.owner, homes) & ~taken) | excluded)
-    some = np.flatnonzero(np.isin(table.owner, np.setdiff1d(others, homes)) & ~excluded)
-    near = _least(table, some, own)
-    found = some[(near < _least(table, some, rest)) & (near <= OTHER_STEPS[step])]
-    return np.union1d(own, _chain(table, found, excluded, OWN_STEPS[0]))
-
-
-def _chain(table: FamilyTable, hulls: Ints, excluded: Bools, most: float) -> Ints:
-    """Hulls with those of the same meshes that a chain leads to whose links are at most so long."""
-    from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
-
-    found = [np.zeros(0, dtype=np.int64)]
-    for mesh in np.unique(table.owner[hulls]).tolist():
-        span = table.spans[mesh]
-        rows = table.rows[span] * table.metric
-        linked = (cdist(rows, rows, "cityblock") <= most) & ~excluded[span][None, :]
-        reached, wider = None, np.isin(np.arange(span.start, span.stop), hulls)
-        while reached is None or (wider != reached).any():
-            reached, wider = wider, wider | linked[wider].any(axis=0)
-        found.append(np.flatnonzero(reached) + span.start)
-    return np.concatenate(found)
-
-
-def _least(table: FamilyTable, hulls: Ints, to: Ints) -> Floats:
-    """The distance of each of some hulls to the nearest of others, infinite where there is none."""
-    from scipy.spatial.distance import cdist  # lazy: as above
-
-    if not len(to) or not len(hulls):
-        return np.full(len(hulls), np.inf)
-    gaps: Floats = cdist(table.rows[hulls] * table.metric, table.rows[to] * table.metric, "cityblock")
-    nearest: Floats = gaps.min(axis=1)
-    return nearest

@@ -7,9 +7,11 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "classes": "complete_classes",
         "from_files.label_by_files": "FileLabeler LabelFileOptions label_file_beside",
         "label_family": "LabelChange LabelResult Proposal Proposals label_project",
         "label_by_inference": "AllLabeler",
+        "label_by_like": "LikeLabeler LikeMismatchError",
         "labeler": "AssetLabels Labeler LabelFamily LabelProposal ignore_stage",
         "merge": "LabelOutcome NewHullLabels label_new_hulls set_labels set_labels_of",
         "names.label_by_names": "NameLabeler",

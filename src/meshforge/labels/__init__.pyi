@@ -1,4 +1,5 @@
 # Written by `python -m script.stubs`.
+from meshforge.labels.classes import complete_classes as complete_classes
 from meshforge.labels.from_files.label_by_files import FileLabeler as FileLabeler
 from meshforge.labels.from_files.label_by_files import LabelFileOptions as LabelFileOptions
 from meshforge.labels.from_files.label_by_files import label_file_beside as label_file_beside
@@ -8,6 +9,8 @@ from meshforge.labels.label_family import Proposal as Proposal
 from meshforge.labels.label_family import Proposals as Proposals
 from meshforge.labels.label_family import label_project as label_project
 from meshforge.labels.label_by_inference import AllLabeler as AllLabeler
+from meshforge.labels.label_by_like import LikeLabeler as LikeLabeler
+from meshforge.labels.label_by_like import LikeMismatchError as LikeMismatchError
 from meshforge.labels.labeler import AssetLabels as AssetLabels
 from meshforge.labels.labeler import Labeler as Labeler
 from meshforge.labels.labeler import LabelFamily as LabelFamily

@@ -6,8 +6,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from meshforge import language, symbolic, synthesis
+from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions
 from meshforge.geometry import digest
 from meshforge.label_model import evidence_of, model_family
+from meshforge.labels.family_comparison import compare_assets
+from meshforge.labels.labeler import LabelFamily, ignore_stage
 from meshforge.store import Store
 from meshforge.symbolic import (
     CLASS_SOURCES,
@@ -93,6 +96,31 @@ def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mappin
     if texts:
         with store.lock():
             store.write_classes(texts)
+
+
+def complete_classes(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> None:
+    """Write the classes of assets that have none and no labels, by those that steps gave: of new assets, and of those
+    at which learning does not look in a very large family."""
+    layout = store.layout
+    bare = {one for one in store.assets() if not (layout.labels(one).exists() or layout.classes(one).exists())}
+    shown = {one for one in layout.classes.ids if one in store.found.ids}
+    steps = {
+        one: {n: label for n, label in store.labels_and_classes(one).labels.items() if evidence_of(label)}
+        for one in shown
+    }
+    words = sorted({label.name for some in steps.values() for label in some.values()} - {NO_PART})
+    if not bare or not words:
+        return
+    family = LabelFamily(store, tuple(words), execution, ignore_stage)
+    compared = compare_assets(family, lambda asset, current: steps.get(asset, current))
+    labels = [label for place in range(len(compared.assets)) for label in compared.found.labels(place, "class")]
+    texts = dict[str, str | None]()
+    for asset, own in compared.share_out(labels):
+        classes = {hull: label for hull, label in own.items() if is_class_name(label.name)}
+        if asset in bare and classes:
+            texts[asset] = symbolic.format_labels(LabelFile((), classes, compared.hulls[asset]))
+    with store.lock():
+        store.write_classes(texts)
 
 
 def class_names(meshes: Iterable[SymbolicMesh]) -> tuple[str, ...]:

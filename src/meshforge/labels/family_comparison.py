@@ -19,6 +19,8 @@ from meshforge.symbolic import Label
 
 HullLabels = Mapping[str, Label]
 """Labels by hull."""
+DescribedAsset = tuple[Floats, Ints, Sequence[Label | None]]
+"""An asset of another family: `rows` and `touching` of its `ShapeDescriptor`, and the label of each hull."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +28,8 @@ class FamilyComparison:
     """What labels say about the hulls of all assets.
 
     hulls: digests by name, in order, of each asset that could be read; current: their labels; lost: why others are not
-    compared; assets: those that were described, in order; said: what speaks of each of their hulls.
+    compared; assets: those that were described, in order; observed: what speaks of each of their hulls, then of those
+    of other families.
     """
 
     hulls: Mapping[str, Mapping[str, str]]
@@ -39,7 +42,8 @@ class FamilyComparison:
     @cached_property
     def next(self) -> str | None:
         """The asset that would help most if it were labelled; None: all are."""
-        return next((self.assets[place] for place in self.found.next_to_label()), None)
+        own = range(len(self.assets))
+        return next((self.assets[place] for place in self.found.next_to_label() if place in own), None)
 
     def share_out(self, labels: Sequence[Label | None]) -> Iterator[tuple[str, dict[str, Label]]]:
         """Yield each asset that is not lost, with its share of labels of all hulls."""
@@ -50,13 +54,21 @@ class FamilyComparison:
                 yield asset, {name: infer_over(current.get(name), label) for name, label in rows if label}
 
 
-def compare_assets(family: LabelFamily, speak: Callable[[str, HullLabels], HullLabels]) -> FamilyComparison:
-    """Compare the hulls of all assets that can be read.
+@dataclass(frozen=True, eq=False)
+class FamilyDescription:
+    """The hulls of all assets, not yet compared. hulls, current, lost: as in `FamilyComparison`; rows: `rows` and
+    `touching` of the assets that were described, in order."""
 
-    speak: what speaks for hulls of an asset, given it and the labels that they have; words outside of the vocabulary
-    say nothing. Raises ProjectError: no vocabulary, or nothing is said at all.
-    """
-    store, vocabulary = family.store, family.vocabulary
+    hulls: Mapping[str, Mapping[str, str]]
+    current: Mapping[str, HullLabels]
+    lost: dict[str, str]
+    rows: Mapping[str, tuple[Floats, Ints]]
+    describer: _Describer
+
+
+def describe_assets(family: LabelFamily) -> FamilyDescription:
+    """Describe the hulls of all assets that can be read."""
+    store = family.store
     with family.stage(len(store.assets()), "reading") as advance:
         facts = dict(iterate_asset_index(store.found, store.layout, execution=family.execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
@@ -68,20 +80,36 @@ def compare_assets(family: LabelFamily, speak: Callable[[str, HullLabels], HullL
             )
         except AssetError as error:
             lost[asset] = error.message
-    evidence = {asset: speak(asset, labels) for asset, labels in current.items()}
-    if any(evidence.values()):
-        family.require_vocabulary()
     hulls = {asset: facts[asset].hulls for asset in current}
     describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
     del facts
-    described = describer.describe(list(current))
-    assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
-    del described
+    return FamilyDescription(hulls, current, lost, describer.describe(list(current)), describer)
+
+
+def compare_assets(
+    family: LabelFamily,
+    speak: Callable[[str, HullLabels], HullLabels],
+    beside: Sequence[DescribedAsset] = (),
+    described: FamilyDescription | None = None,
+) -> FamilyComparison:
+    """Compare the hulls of all assets that can be read.
+
+    speak: what speaks for hulls of an asset, given it and the labels that they have; words outside of the vocabulary
+    say nothing. beside: assets of other families, all whose labels speak; described: the assets, if they are already.
+    Raises ProjectError: no vocabulary, or nothing is said at all.
+    """
+    store, vocabulary, known = family.store, family.vocabulary, described or describe_assets(family)
+    hulls, current, lost, assets = known.hulls, known.current, known.lost, tuple(known.rows)
+    evidence = {asset: speak(asset, labels) for asset, labels in current.items()}
+    if any(evidence.values()):
+        family.require_vocabulary()
+    table = label_model.FamilyTable.of([*known.rows.values(), *((rows, touching) for rows, touching, _ in beside)])
     words = {*vocabulary, symbolic.NO_PART}
     spoken = (evidence[asset].get(name) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in words else None for label in spoken)
+    observed += tuple(label for _, _, labels in beside for label in labels)
     seen = label_model.Observations.of(observed)
-    table = describer.set_upright(assets, table, seen)
+    table = known.describer.set_upright(assets, table, seen)
     compared = FamilyComparison(
         hulls, current, lost, assets, observed, _compute_isolated(table, seen, family.execution.stop)
     )
@@ -122,9 +150,9 @@ class _Describer:
     def set_upright(
         self, assets: Sequence[str], table: label_model.FamilyTable, observed: label_model.Observations
     ) -> label_model.FamilyTable:
-        doubtful = dict[str, tuple[int, tuple[int, ...]]]()
+        doubtful, own = dict[str, tuple[int, tuple[int, ...]]](), len(assets)
         for place, sides in label_model.find_doubtful_sides(
-            table, observed, lambda k: self._cache.read_sides(assets[k])
+            table, observed, lambda k: self._cache.read_sides(assets[k]) if k < own else table.rows[:0, None]
         ):
             raise_if_stopped(self._stop)
             if sides:

@@ -138,9 +138,10 @@ def _infer(
     compared = compare_assets(family, speak)
     known = {label.name for label in compared.observed if label}
     labels = compared.found.agree(compared.observed) if len(known) > 1 else compared.observed
-    note = "" if len(known) > 1 else f"{next(iter(known))} is the only label, and nothing follows from one alone."
+    alone = f"{next(iter(known))} is the only label, and nothing follows from one alone: label a hull that is another"
+    notes = () if len(known) > 1 else (alone,)
     assets = _share_labels(family, compared, labels, reasons)
-    return LabelProposal(assets, compared.next, _find_alike(compared), note=note)
+    return LabelProposal(assets, compared.next, _find_alike(compared), notes=notes)
 
 
 def _find_alike(compared: FamilyComparison) -> tuple[tuple[str, str], ...]:

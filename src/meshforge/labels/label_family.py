@@ -68,7 +68,8 @@ class LabelResult:
 
     outcomes: of each asset, in their order; proposals: what a dry run would take; changes: the most frequent first;
     next: the asset that would help most if it were labelled, None: all are, or the labeler does not know; alike: pairs
-    of labels that may be two names of one part; free: hulls whose label no person gave; note: why nothing was inferred.
+    of labels that may be two names of one part; free: hulls whose label no person gave; notes: what else the user is to
+    know, a sentence each.
     """
 
     outcomes: tuple[LabelOutcome, ...]
@@ -77,7 +78,7 @@ class LabelResult:
     next: str | None = None
     alike: tuple[tuple[str, str], ...] = ()
     free: int = 0
-    note: str = ""
+    notes: tuple[str, ...] = ()
 
 
 def label_project(
@@ -117,7 +118,7 @@ def label_project(
             run.take(found, report)
     if not dry_run:
         keep_label_source(store, run.outcomes.values(), labeler)
-    return replace(run.result(), next=proposal.next, alike=proposal.alike, note=proposal.note)
+    return replace(run.result(), next=proposal.next, alike=proposal.alike, notes=proposal.notes)
 
 
 def _count(assets: Iterable[AssetLabels], total: int, what: str, stage: Stage) -> Iterator[AssetLabels]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshforge.common import relative_name
+from meshforge.common import relative_name, write_atomically
 from meshforge.labels.from_files.label_by_files import (
     FileLabeler,
     LabelFileOptions,
@@ -15,6 +15,7 @@ from meshforge.labels.from_files.label_by_files import (
     read_label_file,
 )
 from meshforge.labels.label_by_inference import AllLabeler
+from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import Labeler
 from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
 from meshforge.labels.names.label_by_names import NameLabeler, match_names, name_patterns, names_of_mesh, to_label
@@ -42,6 +43,9 @@ class LabelSourcesFile(JsonFile):
 
 def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: Labeler) -> None:
     """Keep by what hulls were labelled, if new assets can be labelled by that; patterns add to those before."""
+    if isinstance(labeler, LikeLabeler) and labeler.fresh:
+        with store.lock():
+            write_atomically(store.layout.like(labeler.fresh[0]), labeler.fresh[1].format())
     some = (labeler.files, labeler.names) if isinstance(labeler, AllLabeler) else (labeler,)
     new = [line for one in some if (line := _line_of(store, one))]
     if not new or not any(one.taken or one.same or one.kept for one in outcomes):

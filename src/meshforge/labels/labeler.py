@@ -56,15 +56,15 @@ class LabelProposal:
     """The labels that a labeler proposes.
 
     assets: computed while they are iterated; next: the asset that would help most if it were labelled; alike: pairs of
-    labels that may be two names of one part; vocabulary: that of the labels, for a project that has none; note: why
-    nothing is inferred, where that is so.
+    labels that may be two names of one part; vocabulary: that of the labels, for a project that has none; notes:
+    what else the user is to know, a sentence each.
     """
 
     assets: Generator[AssetLabels, None, None]
     next: str | None = None
     alike: tuple[tuple[str, str], ...] = ()
     vocabulary: tuple[str, ...] = ()
-    note: str = ""
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

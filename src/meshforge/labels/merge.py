@@ -61,13 +61,21 @@ def set_labels_of(
     source: symbolic.LabelSource = "user",
     confidence: float = 1.0,
 ) -> tuple[LabelOutcome, ...]:
-    """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull."""
+    """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull.
+
+    A hull with a class whose label is removed is none of the parts.
+    """
     texts, outcomes = dict[str, str | None](), list[LabelOutcome]()
     with store.lock():
         vocabulary, every = store.vocabulary, _read_digests(store, labels)
         for asset, wanted in labels.items():
             hulls = every[asset]
-            given = {name: Label(label, confidence, source) if label else None for name, label in wanted.items()}
+            classes = store.layout.classes(asset).exists() and store.labels_and_classes(asset).labels
+            words = {
+                name: label or (symbolic.NO_PART if classes and name in classes else None)
+                for name, label in wanted.items()
+            }
+            given = {name: Label(label, confidence, source) if label else None for name, label in words.items()}
             current = symbolic.match_labels(store.labels(asset), hulls).labels
             labelled, outcome = merge_labels(asset, hulls, current, given, vocabulary)
             if outcome.problems:
@@ -199,8 +207,8 @@ class LabelWriter:
 
 
 def can_fill_gap(current: Label | None, given: Label | None) -> bool:
-    """Return only hulls without a label get one."""
-    return current is None
+    """Return only hulls without a label get one, or with one that was taken from another family."""
+    return current is None or current.source == "like"
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:

@@ -61,8 +61,8 @@ _AGREEING = 0.5  # of the hulls of a class whose names say a part, those that mu
 
 
 def propose_class_names(store: Store) -> dict[str, str | None]:
-    """Return the classes of a project, each with the part that the names of most of its hulls say, None where they say
-    none."""
+    """Return the classes of a project, each with the part that the names of most of its hulls say; None where they say
+    none, or that of another class too."""
     votes, words = dict[str, Counter[str]](), tuple(synonyms())
     for asset, facts in iterate_asset_index(store.found, store.layout, store.layout.classes.ids):
         classes = store.labels_and_classes(asset).labels
@@ -72,7 +72,9 @@ def propose_class_names(store: Store) -> dict[str, str | None]:
                 found = match_names(names, words)
                 votes.setdefault(label.name, Counter()).update([found.label] if found and found.label else [])
     best = {name: next(iter(some.most_common(1)), ("", 0)) for name, some in sorted(votes.items())}
-    return {name: word if count > _AGREEING * votes[name].total() else None for name, (word, count) in best.items()}
+    agreed = {name: word for name, (word, count) in best.items() if count > _AGREEING * votes[name].total()}
+    once = Counter(agreed.values())
+    return {name: word if (word := agreed.get(name)) and once[word] == 1 else None for name in best}
 
 
 @dataclass(frozen=True, slots=True)

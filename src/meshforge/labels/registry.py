@@ -14,6 +14,7 @@ from meshforge.batch import WorkerFailure, execute
 from meshforge.common import Plugin, Registry, UsageError, blame, describe_error, suggest_among
 from meshforge.labels.from_files.label_by_files import FileLabeler
 from meshforge.labels.label_by_inference import AllLabeler, PropagationLabeler, SourceRestorer
+from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.names.label_by_names import NameLabeler
 from meshforge.labels.vlm.label_by_vlm import VlmLabeler
@@ -25,6 +26,7 @@ _BUILT_IN: tuple[type[Labeler], ...] = (
     FileLabeler,
     NameLabeler,
     PropagationLabeler,
+    LikeLabeler,
     VlmLabeler,
     SourceRestorer,
 )

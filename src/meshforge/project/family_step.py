@@ -41,7 +41,7 @@ def _decompose(state: FamilyState) -> NextStep | None:
 
 def _begin(state: FamilyState) -> NextStep:
     if not state.vocabulary and not any(asset.labelled for asset in state.assets):
-        return _take_files(state, state.assets) or _find_readable(state) or _demonstrate(state)
+        return _take_offers(state, state.assets) or _find_readable(state) or _demonstrate(state)
     return _label_first(state) or _complete_labels(state) or _demonstrate(state)
 
 
@@ -55,12 +55,7 @@ def _label_first(state: FamilyState) -> NextStep | None:
     """Take labels that are there already, where no hull has one yet; else those of an asset of usual size by hand."""
     if any(asset.labelled for asset in state.assets):
         return None
-    if step := _take_files(state, state.assets):
-        return step
-    if named := state.find_offers().named:
-        text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
-        return _step(state, "label-names", text, "label --with names")
-    if step := _find_readable(state):
+    if step := _take_offers(state, state.assets) or _find_readable(state):
         return step
     usual = _usual(state)
     return _label_by_hand(state, usual, f"No hull has a label yet: label those of {usual.id}.")
@@ -72,10 +67,18 @@ def _usual(state: FamilyState) -> AssetStatus:
     return next(asset for asset in state.assets if len(asset.names) == sizes[(len(sizes) - 1) // 2])
 
 
-def _take_files(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
-    files = {asset.id for asset in bare} & set(state.find_offers().files) if bare else ()
-    text = f"Labels files lie beside {pluralize(len(files), 'asset')}: take their labels."
-    return _step(state, "label-files", text, "label --with file") if files else None
+def _take_offers(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
+    """Take labels that are there already, in files and names."""
+    if not bare:
+        return None
+    ids, offers = {asset.id for asset in bare}, state.find_offers()
+    if files := ids.intersection(offers.files):
+        text = f"Labels files lie beside {pluralize(len(files), 'asset')}: take their labels."
+        return _step(state, "label-files", text, "label")
+    if named := sum(len(names) for asset, names in offers.names.items() if asset in ids):
+        text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
+        return _step(state, "label-names", text, "label")
+    return None
 
 
 def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str) -> NextStep:
@@ -93,7 +96,7 @@ def _explain_names(state: FamilyState, asset: str) -> str:
 
 def _complete_labels(state: FamilyState) -> NextStep | None:
     bare = [asset for asset in state.assets if asset.hulls and not asset.labelled]
-    if step := _take_files(state, bare):
+    if step := _take_offers(state, bare):
         return step
     if bare and _has_whole(state):
         return _propagate(state, f"{_count_assets(bare, 'has', 'have')} no label")
@@ -106,7 +109,7 @@ def _has_whole(state: FamilyState) -> bool:
 
 
 def _propagate(state: FamilyState, why: str) -> NextStep:
-    return _step(state, "propagate", f"{why}: propagate labels.", "label --with propagate")
+    return _step(state, "propagate", f"{why}: propagate labels.", "label")
 
 
 def _label_rest(state: FamilyState) -> NextStep | None:
@@ -192,14 +195,14 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
     bare = [a for a in state.assets if a.hulls and not a.labelled and not a.is_done and not a.excluded]
     if not state.asks_labels or not bare:
         return None
-    if step := _take_files(state, bare):
-        return step
     why = f"{_count_assets(bare, 'has', 'have')} no label"
+    if not state.vocabulary:  # they get classes when the program is applied
+        return None
+    if step := _take_offers(state, bare):
+        return step
     if _has_whole(state):
         return _propagate(state, why)
-    return _label_by_hand(
-        state, bare[0], f"{_count_assets(bare, 'has', 'have')} no label: label those of {bare[0].id}."
-    )
+    return _label_by_hand(state, bare[0], f"{why}: label those of {bare[0].id}.")
 
 
 def _answer(state: FamilyState) -> NextStep | None:

@@ -10,6 +10,7 @@ from meshforge import store as files
 from meshforge.batch import action_text
 from meshforge.common import ProgramError, ProjectError, suggest_name, write_all_atomically, write_atomically
 from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sources
+from meshforge.labels.like_reference import read_references
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
 from meshforge.store import Store
@@ -110,6 +111,10 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
         yield layout.label_sources, after
+    for name, reference in read_references(store).items():
+        if old in reference.words.values():
+            names = {there: new if here == old else here for there, here in reference.words.items()}
+            yield layout.like(name), reference.model_copy(update={"words": names}).format()
     events = files.load_events(layout)
     now = [_rename_in_event(event, layout.events, old, new) for event in events]
     if now != list(events):

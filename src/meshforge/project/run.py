@@ -55,7 +55,8 @@ def build_work(
     """Return what `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the
     templates.
 
-    Where there is no program, but something is prepared, it is one without rules, which writes what is prepared.
+    Where there is no program, but something is prepared, it is one without rules, which writes what is prepared. Assets
+    without classes get some where the program asks for them.
     Raises ProjectError: no program yet and nothing prepared, or no such asset.
     """
     for asset in only or ():
@@ -64,6 +65,8 @@ def build_work(
     if program is None:
         remedy = f"Learn it: meshforge synthesize {store.folder}"
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
+    if any(map(symbolic.is_class_name, program.labels_asked)):
+        labelling.complete_classes(store)
     away = store.exclusions().keys() - set(only or ())
     jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
     return program, jobs, build_task(store, program).templates

@@ -26,7 +26,7 @@ Effect = Literal["card", "hulls", "settings", "program", "questions", "learning"
 @dataclass(frozen=True)
 class ProjectFile:
     """One file of a project, or a folder of files. name: its path from the project's folder; a folder ends in `/`, and
-    `{asset}` stands for an id.
+    `{asset}` stands for an id, `{name}` for a name without slash and dot.
 
     effects: what a studio refreshes when it changes; without any it is not watched. hulls: it is made of hulls of an
     asset or names them, so preparing the asset changes it. words: it contains labels. learned: learning writes it, so
@@ -42,6 +42,7 @@ class ProjectFile:
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         text = re.escape(self.name).replace(re.escape("{asset}"), "(?P<asset>.+)")
+        text = text.replace(re.escape("{name}"), "(?P<asset>[^/.]+)")
         return re.compile(
             text + ("(?P<rest>[^/]+)" if "{asset}" in text else ".+") if self.name.endswith("/") else text
         )
@@ -54,7 +55,7 @@ class ProjectFile:
 
     def path(self, folder: Path, asset: str | None = None) -> Path:
         """Return the file in a project's folder; for no asset the folder of those of all assets."""
-        return folder / (self.name.partition("{asset}")[0] if asset is None else self.name.format(asset=asset))
+        return folder / (self.name.partition("{")[0] if asset is None else self.name.format(asset=asset, name=asset))
 
     @property
     def is_of_asset(self) -> bool:
@@ -101,9 +102,9 @@ class AssetPaths:
         if self.file.name.endswith("/"):
             found = [path.parent.relative_to(root).as_posix() for path in root.rglob(batch.RECORD_FILE)]
         else:
-            suffix = self.file.name.rpartition("{asset}")[2]
-            names = (path.relative_to(root).as_posix() for path in root.rglob(f"*{suffix}"))
-            found = [name.removesuffix(suffix) for name in names]
+            names = (path.relative_to(self.folder).as_posix() for path in root.rglob("*.json"))
+            known = filter(None, map(identify_file, names))
+            found = [asset for file, asset in known if file is self.file]
         return tuple(sorted(map(to_text, found)))
 
 
@@ -123,6 +124,7 @@ class Layout:
     labels = AssetFile("labels/{asset}.json", _effects("card", "learning"), hulls=True, words=True)
     classes = AssetFile("classes/{asset}.json", _effects("card"), hulls=True, words=True, learned=True)
     label_sources = OneFile("label_sources.json", words=True)
+    like = AssetFile("labels/like/{name}.json", words=True)
     demonstration = AssetFile("demonstrations/{asset}.json", _effects("card", "learning"), hulls=True, words=True)
     manual_edits = AssetFile("corrections/{asset}.json", _effects("card"), hulls=True, words=True)
     preparation = AssetFile("prepared/{asset}/", _effects("card", "hulls", "learning"), hulls=True)

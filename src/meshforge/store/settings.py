@@ -9,9 +9,9 @@ import tomllib
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from meshforge import batch, formats, language
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
@@ -28,12 +28,13 @@ class VlmSettings(BaseModel):
     """The table [vlm]: which model is asked, and how. The key is never written here.
 
     key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
-    mode: how many pictures and questions; about: a line on what the meshes are; descriptions: a line on some labels;
-    examples: ids of labelled assets that the model is shown; names: whether it is given the names of assets and hulls;
-    repeats: how often each question is asked. Prices are in dollars a million tokens, None where they are not known;
+    every_hull: whether it is asked about every hull, or about exemplars of which labels are propagated; about: a line
+    on what the meshes are; descriptions: a line on some labels; examples: ids of labelled assets that the model is
+    shown, none for some of those that are labelled; names: whether it is given the names of assets and hulls; repeats:
+    how often each question is asked. Prices are in dollars a million tokens, None where they are not known;
     max_cost: the most that one run may cost [$].
     room: tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures
-    [px], None for that of the mode. concurrency: questions under way at once; timeout [s] for one attempt; retries:
+    [px]. concurrency: questions under way at once; timeout [s] for one attempt; retries:
     further attempts after a fault that passes. extra: further fields of every request, for what a server wants besides.
     """
 
@@ -42,7 +43,7 @@ class VlmSettings(BaseModel):
     base_url: str = "https://api.openai.com/v1"
     model: str = ""
     key_env: str | None = None
-    mode: Literal["cheap", "balanced", "exact"] = "balanced"
+    every_hull: bool = False
     about: str = ""
     descriptions: Mapping[str, str] = {}
     examples: tuple[str, ...] = ()
@@ -52,11 +53,18 @@ class VlmSettings(BaseModel):
     output_price: Price | None = None
     max_cost: Price | None = None
     room: Annotated[int, Field(ge=100)] = 1000
-    size: Annotated[int, Field(ge=256, le=4096)] | None = None
+    size: Annotated[int, Field(ge=256, le=4096)] = 768
     concurrency: Annotated[int, Field(ge=1, le=256)] = 4
     timeout: Seconds = 120.0
     retries: Annotated[int, Field(ge=0, le=20)] = 5
     extra: Mapping[str, Any] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_mode(cls, given: Any) -> Any:
+        if isinstance(given, dict) and "mode" in given:
+            raise ValueError("there is no mode now: every_hull = true (--every-hull) asks about all, else exemplars")
+        return given
 
 
 class Thresholds(BaseModel):

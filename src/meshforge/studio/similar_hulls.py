@@ -15,7 +15,7 @@ from meshforge.batch import record_digest, source_files
 from meshforge.common import FileStates, MeshForgeError, StoppedError, file_states
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import FamilyTable, MeshDescriber, find_similar
-from meshforge.label_model.table import OTHER_STEPS, OWN_STEPS, Bools
+from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS, Bools
 from meshforge.project import Project
 from meshforge.store import AssetFiles
 from meshforge.studio.errors import NotHereError

@@ -11,7 +11,7 @@ from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
 # fmt: off
 LabelSource = Literal[
-    "vlm", "propagated", "rebuild", "name", "file", "user", "repair", "edit", "plugin", "step", "class",
+    "vlm", "like", "propagated", "rebuild", "name", "file", "user", "repair", "edit", "plugin", "step", "class",
 ]
 # fmt: on
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)

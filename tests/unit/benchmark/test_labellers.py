@@ -17,15 +17,15 @@ from benchmark.labels.families import LABELLED, Family, families
 from benchmark.labels.methods import REPEATS, LabellerOutput, Method, offline
 from benchmark.labels.scores import score_labels
 from meshforge.common import UsageError
-from meshforge.labels.vlm.prompt import MODES
-from meshforge.rendering import draw_labeling_pictures, encode_png
+from meshforge.labels.vlm.prompt import MeshHulls, PromptConfig, build_questions
+from meshforge.store import VlmSettings
 from tests.loopback import Asked, labels_as_json, serving
 from tests.unit.benchmark.model_asking import PRICES, key, settings_file
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
 SIZE = 256
-CHEAP = f'mode = "cheap"\nsize = {SIZE}\n'
+SMALL = f"size = {SIZE}\n"
 
 
 @pytest.fixture(scope="module")
@@ -85,8 +85,9 @@ class Model:
     def __init__(self, family: Family) -> None:
         self.truth: dict[bytes, dict[int, str]] = {}
         for place, labels in zip(family.drawn, truth(family), strict=True):
-            taken = draw_labeling_pictures(family.bare[place], most=MODES["cheap"].pictures, size=SIZE)
-            self.truth[encode_png(taken[0].marked)] = dict(enumerate(labels))
+            mesh, config = family.bare[place], PromptConfig(family.vocabulary, VlmSettings(size=SIZE))
+            (asked,) = build_questions([MeshHulls("", mesh, [*mesh.index])], config)
+            self.truth[next(asked.question.pictures)] = dict(enumerate(labels))
         self.asked = 0
 
     def __call__(self, asked: Asked) -> str:
@@ -125,12 +126,12 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
     (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
     with serving(model) as server:
-        settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
+        settings = settings_file(server, tmp_path / "vlm.toml", SMALL)
         found = run(tmp_path / "out", "--vlm", settings)
         asked, spent = model.asked, dict(server.usage)
         again = run(tmp_path / "again", "--vlm", settings)
         assert model.asked == asked
-    row, other = found["loopback-vl, cheap"], again["loopback-vl, cheap"]
+    row, other = found["loopback-vl"], again["loopback-vl"]
     assert {**row, "s a mesh": 0, "$ a mesh": 0} == {**other, "s a mesh": 0, "$ a mesh": 0}
     assert row["$ a mesh"] == pytest.approx(other["$ a mesh"])  # added up as answers come
     assert asked == 2 * 2 * REPEATS  # each mesh once, and once again for the hull that has no label
@@ -140,4 +141,4 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
     assert (row["repeats"], row["all repeats agree, %"], row["Friedman, p"]) == (REPEATS, 100, "no difference")
     cost = (PRICES[0] * spent["input"] + PRICES[1] * spent["output"]) / 1e6
     assert row["$ a mesh"] == pytest.approx(cost / REPEATS / 2, rel=0.1)  # but for probes
-    assert any("loopback-vl, mode cheap" in note for note in found["notes"])
+    assert any("loopback-vl, asked about all hulls" in note for note in found["notes"])

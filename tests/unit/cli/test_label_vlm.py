@@ -41,7 +41,7 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
         with project.layout.settings.open("a") as file:
             file.write(
                 f'\n[vlm]\nbase_url = "{made.base_url}"\nmodel = "{made.model}"\nkey_env = "{VARIABLE}"\nnames = true\n'
-                'mode = "cheap"\nsize = 256\ninput_price = 1\noutput_price = 4\n'
+                "every_hull = true\nsize = 256\ninput_price = 1\noutput_price = 4\n"
             )
         yield made
 
@@ -68,7 +68,7 @@ def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, serve
         f"5 answers; {server.usage['input']:,} tokens in, {server.usage['output']:,} out; ${price:.4f}"
     )
     assert lines[-1].startswith("what was sent and what came back: ")
-    assert (Path(lines[-1].partition(": ")[2]) / "t002.obj.html").is_file()
+    assert len([*(Path(lines[-1].partition(": ")[2]) / "answers").iterdir()]) == 4
     again = run("label", "p", "--with", "vlm")
     assert "t000.obj: 0 labels taken, 6 there already\n" in again.out
     assert "0 answers, 4 more from earlier; 0 tokens in, 0 out; $0.0000\n" in again.out
@@ -87,21 +87,20 @@ def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server)
 
 @pytest.mark.slow
 def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: Server, tmp_path: Path) -> None:
-    before = sorted(tmp_path.rglob("*"))
     told = run("label", "p", "--with", "vlm", "--dry-run")
     assert told.code == 0
     lines = told.out.splitlines()
     host = server.base_url.split("/")[2]
-    assert lines[0] == f"loopback-vl at {host}, mode cheap: 3 assets with 18 hulls to be labelled"
+    assert lines[0] == f"loopback-vl at {host}: 3 assets with 18 hulls to be labelled"
     assert lines[1].startswith("would send 3 questions with ")
     assert " out: about $0.0" in lines[2]
     assert lines[-1] == "nothing was sent"
     assert not server.asked
-    assert sorted(tmp_path.rglob("*")) == before
+    assert {path.name for path in (tmp_path / "p/.meshforge").iterdir()} == {"survey.json"}
     run("label", "p", "--with", "vlm", "--dry-run", "--vocabulary", "top,foot")
     assert Project.open(tmp_path / "p").vocabulary == ("top", "leg", "misc")
-    found = json.loads(run("label", "p", "--with", "vlm", "--dry-run", "--json", "--mode", "exact").out)
-    assert (found["mode"], found["questions"] > 3, found["key_is_set"]) == ("exact", True, True)
+    found = json.loads(run("label", "p", "--with", "vlm", "--dry-run", "--json", "--model", "other").out)
+    assert (found["model"], found["every_hull"], found["key_is_set"]) == ("other", True, True)
 
 
 @pytest.mark.slow
@@ -134,6 +133,7 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
         (("--labels", "x"), "--labels is for --with file"),
+        (("--mode", "exact"), "there is no mode now: every_hull = true (--every-hull) asks about all"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

@@ -304,5 +304,5 @@ def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Pa
 
 
 def test_status_advises_to_take_them(tmp_path: Path) -> None:
-    advice = partnet(tmp_path).status(workers=0).next
-    assert advice.command is not None and advice.command.endswith("--with file")
+    project = partnet(tmp_path)
+    assert project.status(workers=0).next.command == f"meshforge label {project.folder}"

@@ -53,7 +53,7 @@ def test_what_a_file_says_without_being_sure_teaches_little(tmp_path: Path) -> N
     project = family(tmp_path)
     wrong = dict.fromkeys(NAMES, "misc")
     project.set_labels("t0.obj", wrong, source="file", confidence=0.4)
-    assert "nothing follows from one alone" in project.label("propagate").note
+    assert "nothing follows from one alone" in project.label("propagate").notes[0]
     assert not project.labels("t2.obj").labels
     project.set_labels("t1.obj", {name: label_of(name) for name in NAMES}, source="file", confidence=0.8)
     project.label("propagate")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Ints
-from meshforge.label_model import FamilyTable, MeshDescriber, find_similar
-from meshforge.label_model.table import OTHER_STEPS, OWN_STEPS
+from meshforge.label_model import FamilyTable, MeshDescriber, choose_exemplars, find_similar
+from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS, RADIUS
 from meshforge.symbolic import Hull, SymbolicMesh
 from script.families.chairs import _list_chairs
 
@@ -78,3 +78,15 @@ def test_nothing_is_like_nothing() -> None:
     table, _ = _chairs()
     found, _ = find_similar(table, np.zeros(0, dtype=np.int64), _nothing(), np.arange(10), 0)
     assert not len(found)
+
+
+def test_exemplars_are_near_every_hull_and_within_the_limits_the_most_telling_first() -> None:
+    table, parts = _chairs()
+    whole = choose_exemplars(table, len(parts), len(parts))
+    places = [place for own in whole.values() for place in own]
+    gaps = np.abs((table.rows[:, None] - table.rows[None, places]) * table.metric).sum(axis=2)
+    assert gaps.min(axis=1).max() <= 2 * RADIUS  # one of its cluster is asked about
+    few = choose_exemplars(table, 3, 4)
+    assert [*few] == [*whole][:3] and all(len(own) <= 4 for own in few.values())
+    assert all(set(table.owner[own]) == {mesh} for mesh, own in whole.items())
+    assert choose_exemplars(FamilyTable.of([]), 3, 4) == {}

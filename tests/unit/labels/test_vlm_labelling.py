@@ -19,11 +19,13 @@ from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels.vlm import label_by_vlm, prompt
+from meshforge.labels.vlm import prompt
+from meshforge.labels.vlm.prompt import HullQuestion, MeshHulls, PromptConfig, build_questions
 from meshforge.project import Project
-from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, Label
 from tests.examples import examples
 from tests.loopback import FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
+from tests.unit.batch.families import label_of
 from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, label_with_vlm, right, settings, truth
 
 MANY = 200
@@ -146,6 +148,55 @@ def test_assets_that_are_labelled_by_hand_are_not_asked_about(tmp_path: Path) ->
         assert [report.taken for report in found.outcomes] == [0, 6]
 
 
+@pytest.fixture
+def many_clusters(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The tables are so much alike that one shows all clusters."""
+    monkeypatch.setattr("meshforge.label_model.similar.RADIUS", 1.0)
+
+
+@pytest.mark.usefixtures("many_clusters")
+def test_exemplars_are_asked_about_and_the_rest_is_propagated(tmp_path: Path) -> None:
+    project = family(tmp_path, 30)
+    first = project.assets()[0]
+    project.set_labels(first, truth(first))
+    with serving(right) as server:
+        found = label_with_vlm(project, settings(server, every_hull=False))
+        assert (found.unasked, found.ended, found.open) == ((), None, {})
+        asked = server.answered
+        assert 1 <= len(asked) <= 7 and all(len({asset for asset, _ in one.hulls.values()}) <= 4 for one in asked)
+        assert all("assistant" in {message["role"] for message in one.body["messages"]} for one in asked)  # the example
+        assert [report.asset for report in found.outcomes] == list(project.assets())
+        assert all(labels(project, asset) == truth(asset) for asset in project.assets())
+        said = {(a, h) for a in project.assets() for h, one in project.labels(a).labels.items() if one.source == "vlm"}
+        wanted = {hull for one in asked for number, hull in one.hulls.items() if number in one.numbers}
+        assert said == {(asset, hull) for asset, hull in wanted if asset != first} and len(said) < 60
+        before = len(server.asked)
+        again = label_with_vlm(project, settings(server, every_hull=False))
+        assert len(server.asked) == before and not any(outcome.taken for outcome in again.outcomes)
+
+
+@pytest.mark.usefixtures("many_clusters")
+def test_of_exemplars_what_is_unknown_stays_open_and_an_early_end_propagates_nothing(tmp_path: Path) -> None:
+    project = family(tmp_path, 12)
+
+    def unsure(asked: Asked) -> str:
+        known = {number: label_of(asked.hulls[number][1]) for number in asked.numbers}
+        return labels_as_json({number: "unknown" if label == "misc" else label for number, label in known.items()})
+
+    with serving(unsure) as server:
+        how = settings(server, every_hull=False)
+        ended = label_with_vlm(project, how.model_copy(update={"max_cost": 0.009, "concurrency": 1}))
+        assert ended.ended and ended.unasked
+        assert all(one.source == "vlm" for a in project.assets() for one in project.labels(a).labels.values())
+        found = label_with_vlm(project, how)
+        assert found.ended is None
+        assert {hull for own in found.open.values() for hull in own} == {"crumb"}
+        assert len({why for own in found.open.values() for why in own.values()}) == 2
+        assert all(labels(project, a) == {h: one for h, one in truth(a).items() if h != "crumb"} for a in found.open)
+        assert len(found.open) == 12
+        assert max(Counter(asked.raw for asked in server.answered).values()) == 1
+
+
 def test_a_correction_afterwards_does_not_make_the_rest_be_asked_about_again(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     asset = project.assets()[0]
@@ -188,7 +239,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
         assert (told.assets, told.hulls, told.known, told.unreadable) == (3, 18, 0, ("broken.obj",))
         assert told.cost == pytest.approx((told.input + 4 * told.output) / 1e6)
         assert told.output / 3 < server.usage["output"] < told.output * 3
-        assert (told.host, told.model, told.mode) == (server.base_url[7:-3], server.model, "cheap")
+        assert (told.host, told.model, told.every_hull) == (server.base_url[7:-3], server.model, True)
         after = project.forecast_vlm(how)
         assert (after.known, after.pictures, after.input, after.cost) == (3, 0, 0, 0.0)
     (broken,) = [report for report in found.outcomes if report.problems]
@@ -307,7 +358,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
         path = project.layout.settings
         path.write_text(
             f'{path.read_text()}\n[vlm]\nbase_url = "{server.base_url}"\nmodel = "{server.model}"\n'
-            f'key_env = "{VARIABLE}"\nmode = "cheap"\nsize = 256\nnames = true\n'
+            f'key_env = "{VARIABLE}"\nevery_hull = true\nsize = 256\nnames = true\n'
             'examples = ["t000.obj"]\nabout = "small tables"\n'
             '[vlm.descriptions]\nmisc = "what fell off"\n[vlm.extra]\ntop_k = 1\n'
         )
@@ -326,7 +377,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('modell = "x"', "there is no such field as vlm.modell"),
-        ('mode = "thorough"', "the field vlm.mode"),
+        ('mode = "cheap"', "the field vlm: there is no mode now: every_hull = true"),
         ("concurrency = 0", "the field vlm.concurrency"),
         ("input_price = -1", "the field vlm.input_price"),
         ("size = 3", "the field vlm.size"),
@@ -371,13 +422,6 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
     assert not project.layout.labels.ids
 
 
-def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-    with serving(right) as server:
-        server._probed = lambda asked: '{"colour": "blue"}'  # type: ignore[method-assign]
-        assert label_with_vlm(project, settings(server)).blind
-
-
 def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
     project = family(tmp_path, 2)
     assets = project.assets()
@@ -395,38 +439,17 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
     assert [report.taken for report in found.outcomes] == [6, 6]
 
 
-def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-
-    def answer(asked: Asked) -> str:
-        return labels_as_json({0: "<b>leg</b>"}) if not asked.is_again else labels_as_json({1: "leg"})
-
-    with serving(answer) as server:
-        label_with_vlm(project, settings(server))
-    page = project.layout.vlm / "pages" / "t000.obj.html"
-    text = page.read_text()
-    assert "&lt;b&gt;leg&lt;/b&gt;" in text and "<b>" not in text
-    assert text.count("<h2>Question") == 2
-    pictures = [line.partition('"')[0] for line in text.split('<img src="')[1:]]
-    assert len(pictures) >= 4
-    assert all((page.parent / picture).is_file() for picture in pictures)
-    assert "none: the model said nothing usable of it" in text
-
-
 def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = family(tmp_path, 3)
-    real = prompt.build_questions
 
-    def looks(
-        mesh: SymbolicMesh, wanted: Sequence[str], manner: prompt.PromptConfig, name: str
-    ) -> Iterator[prompt.HullQuestion]:
-        if name == "t001.obj":
+    def draw(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
+        if meshes[0].name == "t001.obj":
             raise ZeroDivisionError("no room for the picture")
-        return real(mesh, wanted, manner, name)
+        return build_questions(meshes, config)
 
-    monkeypatch.setattr(label_by_vlm, "build_questions", looks)
+    monkeypatch.setattr(prompt, "build_questions", draw)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
         found = label_with_vlm(project, settings(server))

@@ -41,18 +41,17 @@ def hulls(asset: str) -> list[str]:
 
 
 def right(asked: Asked) -> str:
-    """The right answer, of a model that is told the name of the asset."""
-    names = hulls(asked.asset)
-    return labels_as_json({number: label_of(names[number]) for number in asked.numbers})
+    """The right answer, of a model that is told the names of the hulls."""
+    return labels_as_json({number: label_of(asked.hulls[number][1]) for number in asked.numbers})
 
 
 def settings(server: Server, **how: Any) -> VlmSettings:
-    """Small pictures, short waits, and prices; how: other settings."""
+    """About every hull, with small pictures, short waits, and prices; how: other settings."""
     told: dict[str, Any] = {
         "base_url": server.base_url,
         "model": server.model,
         "key_env": VARIABLE,
-        "mode": "cheap",
+        "every_hull": True,
         "size": 256,
         "names": True,
         "timeout": 5.0,

@@ -65,7 +65,7 @@ def test_labels_that_are_there_already_are_taken_first() -> None:
     files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
     step = choose(BARE, replace(BARE, id="b"), vocabulary=(), find_offers=lambda: files)
     assert step.text == "Labels files lie beside 2 assets: take their labels."
-    assert (step.kind, step.command) == ("label-files", "meshforge label p --with file")
+    assert (step.kind, step.command) == ("label-files", "meshforge label p")
     step = choose(BARE, find_offers=lambda: names)
     assert step.text == "The names of 1 hull contain a label: take their labels."
     assert choose(SHOWN, find_offers=lambda: files).kind == "learn"

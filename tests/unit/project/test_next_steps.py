@@ -35,12 +35,6 @@ def one_labelled(folder: Path) -> Project:
     return project
 
 
-def partly_labelled(folder: Path) -> Project:
-    project = bare(folder)
-    project.set_labels("a.obj", {"top": "top", "crumb": "misc"})
-    return project
-
-
 def one_named(folder: Path) -> Project:
     """Names that say what hulls are."""
     project = bare(folder)
@@ -87,17 +81,17 @@ def open_rule(folder: Path) -> Project:
 
 
 STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
-    "labels files beside the assets": (fresh, "label tables --with file", (0,)),
-    "names that say labels": (one_named, "label tables --with names", (0,)),
-    "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
+    "labels files beside the assets": (fresh, "label tables", (0,)),
+    "names that say labels": (one_named, "label tables", (0,)),
+    "one asset labelled": (one_labelled, "label tables", (0,)),
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
     "an open question": (open_rule, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
     "applied": (applied, "review tables", (0, 1)),
     "signed off": (signed_off, "check tables/edited", (0,)),
     "an asset changed": (changed_asset, "apply tables", (0,)),
-    "a new asset": (new_asset, "label tables --with propagate", (0,)),
-    "a new asset with a labels file": (new_asset_with_labels, "label tables --with file", (0,)),
+    "a new asset": (new_asset, "label tables", (0,)),
+    "a new asset with a labels file": (new_asset_with_labels, "label tables", (0,)),
     "pieces to be decomposed": (without_hulls, "prepare tables --decompose coacd", (0,)),
 }
 """How each is made, the command that is proposed, and the exit codes that mean it did what it should."""
@@ -118,14 +112,11 @@ def test_what_is_proposed_works_and_something_else_is_proposed_then(state: str, 
         assert of(project).next != advice
 
 
-@pytest.mark.parametrize(("make", "hull"), [(bare, "top"), (partly_labelled, "left_low")])
-def test_by_hand_the_proposed_command_needs_but_the_label(
-    make: Callable[[Path], Project], hull: str, tmp_path: Path, run: Run
-) -> None:
-    project = make(tmp_path)
-    project.set_vocabulary(("panel", "leg", "misc", "top") if make is partly_labelled else ("panel", "leg", "misc"))
+def test_by_hand_the_proposed_command_needs_but_the_label(tmp_path: Path, run: Run) -> None:
+    project = bare(tmp_path)
+    project.set_vocabulary(("panel", "leg", "misc"))
     command = of(project).next.command
-    assert command == f"meshforge label tables a.obj '{hull}=LABEL'"
+    assert command == "meshforge label tables a.obj 'top=LABEL'"
     before = sum(asset.labelled for asset in of(project).assets)
     assert run(*shlex.split(command.replace("LABEL", "leg"))[1:]).code == 0
     assert sum(asset.labelled for asset in of(project).assets) == before + 1

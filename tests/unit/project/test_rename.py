@@ -85,7 +85,7 @@ def test_files_that_do_not_say_the_label_are_left_alone(tmp_path: Path) -> None:
 
 def test_a_label_keeps_its_description_under_its_other_name(tmp_path: Path) -> None:
     project = saying(tmp_path)
-    told = '\n[vlm]\nmode = "cheap"\n\n[vlm.descriptions]\nleg = "what it stands on"\npanel = "boards"  # all of them\n'
+    told = '\n[vlm]\nnames = true\n\n[vlm.descriptions]\nleg = "what it stands on"\npanel = "boards"  # all of them\n'
     with project.layout.settings.open("a") as file:
         file.write(told)
     project.rename_label("leg", "chair leg")

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -107,6 +108,17 @@ def test_classes_go_with_the_demonstration_and_make_way_for_labels(tmp_path: Pat
     taken_back.layout.program.unlink()
     taken_back.update_classes(dict(taken_back.meshes_by_id()))
     assert not taken_back.layout.classes.ids
+
+
+def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    (tmp_path / "assets/table9").mkdir()
+    shutil.copyfile(tmp_path / "assets/table1/model.obj", tmp_path / "assets/table9/model.obj")
+    new = Project.open(project.folder)
+    assert not labels_of(new, "table9/model.obj")
+    done = list(new.apply(execution=IN_PROCESS))
+    assert labels_of(new, "table9/model.obj") == PARTS
+    assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 4
 
 
 def test_a_dry_run_writes_no_classes_and_labels_need_none(tmp_path: Path) -> None:

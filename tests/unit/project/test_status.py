@@ -44,7 +44,7 @@ def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_
     project.set_vocabulary(("top", "leg"))
     advice = of(project).next
     assert advice.text == "The names of 1 hull contain a label: take their labels."
-    assert advice.command == f"meshforge label {project.folder} --with names"
+    assert advice.command == f"meshforge label {project.folder}"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
 

@@ -136,7 +136,7 @@ def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> In
 @pytest.mark.parametrize("seed", range(3))
 def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
     mesh = scattered(12, seed)
-    subject = LabelingSubject(mesh, tuple(range(12)), "Z")
+    subject = LabelingSubject(mesh, {k: k for k in range(12)}, "Z")
     canvas, whole = LabelingCanvas(subject, 256), Arrangement.in_place(subject)
     for view in VIEW_PREFERENCES:
         camera = whole.camera(view, canvas.drawing_size)
@@ -148,7 +148,7 @@ def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
 
 def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
     canvas = LabelingCanvas(
-        LabelingSubject(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512
+        LabelingSubject(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), {0: 0, 1: 1}, "Z"), 512
     )
     shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
     side = 0.88 * min(canvas.drawing_size)
@@ -161,7 +161,7 @@ def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for(
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((1.5, 0, 0), (1, 1, 1)))
     for shot in draw_labeling_pictures(mesh):
         picture = pixels(shot.marked)[60:-40]
-        for name, color in zip(mesh.index, LabelingSubject(mesh, (0, 1), "Z").colors, strict=True):
+        for name, color in zip(mesh.index, LabelingSubject(mesh, {0: 0, 1: 1}, "Z").colors, strict=True):
             ratio = picture / np.maximum(picture.max(axis=2, keepdims=True), 1e-9)
             alike = (np.abs(ratio - color / color.max()).max(axis=2) < 0.15).sum()
             assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
@@ -258,7 +258,7 @@ def test_up_may_be_y() -> None:
 
 def test_many_round_hulls_are_round_enough() -> None:
     mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
-    canvas = LabelingCanvas(LabelingSubject(mesh, tuple(range(12)), "Z"), 1024)
+    canvas = LabelingCanvas(LabelingSubject(mesh, {k: k for k in range(12)}, "Z"), 1024)
     shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
     radius = 0.88 * 1024 / 35
     assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())

@@ -1,6 +1,6 @@
 // Long work that a person starts: propagating labels, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { DownloadJob, Job, JobRequest, Model } from "../wire";
+import type { DownloadJob, Job, JobRequest } from "../wire";
 import { useRebuildChoice } from "./newAssets";
 import { useProject } from "./project";
 import { reportError } from "./toasts";
@@ -65,10 +65,11 @@ export function whyNotRebuild(): string | null {
 export const rebuildBodies = (dry_run: boolean): Promise<boolean> => startJob({ kind: "rebuild", dry_run });
 
 /** Finds out what asking the model would send and cost; gives the id of the job. */
-export const forecastModel = (mode: Model["mode"]): Promise<string | null> => requestJob({ kind: "forecast", mode });
+export const forecastModel = (every_hull: boolean): Promise<string | null> =>
+  requestJob({ kind: "forecast", every_hull });
 
-export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<boolean> =>
-  startJob({ kind: "ask", mode, max_cost });
+export const askModel = (every_hull: boolean, max_cost: number | null): Promise<boolean> =>
+  startJob({ kind: "ask", every_hull, max_cost });
 
 export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, signed_only });

@@ -45,7 +45,7 @@ describe("a job", () => {
     await checkAll();
     await rebuildBodies(true);
     await exportTo("out", true);
-    await askModel("exact", 2.5);
+    await askModel(true, 2.5);
     makeHulls(["a"]);
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
@@ -54,20 +54,20 @@ describe("a job", () => {
       { kind: "check" },
       { kind: "rebuild", dry_run: true },
       { kind: "export", folder: "out", signed_only: true },
-      { kind: "ask", mode: "exact", max_cost: 2.5 },
+      { kind: "ask", every_hull: true, max_cost: 2.5 },
       { kind: "decompose", assets: ["a"] },
     ]);
   });
 
   it("that begins says so, and a forecast gives its number", async () => {
     expect(await applyTo(null)).toBe(true);
-    expect(await forecastModel("cheap")).toBe("apply");
+    expect(await forecastModel(false)).toBe("apply");
   });
 
   it("that cannot begin is reported with its remedy", async () => {
     vi.mocked(api.startJob).mockRejectedValue(refusal);
     expect(await applyTo(null)).toBe(false);
-    expect(await forecastModel("cheap")).toBeNull();
+    expect(await forecastModel(false)).toBeNull();
     makeHulls(["a"]);
     await vi.waitFor(() => expect(toasts()).toHaveLength(3));
     expect(toasts()[0]).toEqual(["another job runs", "Stop it."]);

@@ -36,6 +36,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   user: "by you",
   repair: "by you",
   propagated: "propagated",
+  like: "like another family",
   step: "by the steps shown",
   class: "like the steps shown",
   rebuild: "from a rebuilt body",

@@ -1,36 +1,43 @@
-"""What an answer says of hulls: read leniently, and added up over pictures, questions and repeats."""
+"""Questions asked, once more where something is open, and what their answers say of hulls: read leniently, and added up
+over questions and repeats."""
 
 from __future__ import annotations
 
 import json
 import re
+from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from meshforge.common import join_names
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import QuestionError
+from meshforge.labels.vlm.prompt import HullKey, HullQuestion, PromptConfig
+from meshforge.labels.vlm.question import Message, Reply, VlmQuestion
+from meshforge.symbolic import Label
 
 _OBJECT = re.compile(r"\{[^{}]*\}")
 _NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
+_AGAIN = """\
+That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
+_UNANSWERED = "the question got no answer"
+_NOT_KNOWN = "the model does not know"
+_QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
 
-LabelVote = tuple[str | None, float]
-"""What one answer says of a hull, None for unknown, and how well it was seen, in 0..1."""
-
 _AGAINST = 0.4
-"""What speaks against every label from the outset, in votes of one clear look: one vote alone makes a confidence of
-0.71, two that agree 0.83, two against one 0.59."""
-_GLIMPSE = 300.0
-"""Pixels of 1024 x 1024 of a hull from which on a look at it counts more than half."""
+"""What speaks against every label from the outset, in votes: one vote alone makes a confidence of 0.71, two that agree
+0.83, two against one 0.59."""
 
 
 @dataclass(frozen=True, slots=True)
 class HullAnswer:
-    """What was said of the hulls asked about. labels: by number, None for unknown.
+    """What was said of the hulls asked about. labels: by number, among them that for unknown.
 
     odd: words that are no labels; open: numbers asked about of which nothing usable was said, in their order.
     """
 
-    labels: Mapping[int, str | None]
+    labels: Mapping[int, str]
     unrecognised: tuple[str, ...]
     open: tuple[int, ...]
 
@@ -44,21 +51,18 @@ class HullAnswer:
         return "the model said nothing usable of it"
 
 
-def read_answer(text: str, asked: Collection[int], vocabulary: Sequence[str], unknown: str) -> HullAnswer:
+def read_answer(text: str, asked: Collection[int], words: Sequence[str]) -> HullAnswer:
     """Return what a text says, be it JSON, JSON in chatter or code fences, or JSON that is cut off.
 
-    Numbers that were not asked about are passed over; one with two labels is left open.
+    words: that it may say. Numbers that were not asked about are passed over; one with two labels is left open.
     """
-    words: dict[str, str | None] = {_normalize(unknown): None} | {_normalize(word): word for word in vocabulary}
-    found: dict[int, set[str | None]] = {}
+    known, found = {_normalize(word): word for word in reversed(words)}, dict[int, set[str]]()
     unrecognised = dict[str, None]()
     for number, word in _entries(text):
         if number not in asked:
             continue
-        if word in vocabulary:
-            found.setdefault(number, set()).add(word)
-        elif (key := _normalize(word)) in words:
-            found.setdefault(number, set()).add(words[key])
+        if label := word if word in words else known.get(_normalize(word)):
+            found.setdefault(number, set()).add(label)
         else:
             unrecognised[word[:_MOST_SHOWN]] = None
     labels = {number: labels.pop() for number, labels in sorted(found.items()) if len(labels) == 1}
@@ -84,21 +88,63 @@ def _entries(text: str) -> Iterator[tuple[int, str]]:
                 yield int(match[1]), word
 
 
-def clearness(pixels: int, size: int) -> float:
-    """Return how well a hull is seen of which so many pixels show in pictures of `size` x `size`, in 0..1."""
-    full = pixels * (1024 / size) ** 2
-    return full / (full + _GLIMPSE)
+def decide_label(votes: Sequence[str], words: Sequence[str]) -> tuple[str, float] | None:
+    """Return the word with most votes, of equals the first, and its confidence; None where there is no vote."""
+    count = Counter(votes)
+    best = max(words, key=count.__getitem__)
+    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if votes else None
 
 
-def decide_label(votes: Iterable[LabelVote], vocabulary: Sequence[str]) -> tuple[str, float] | None:
-    """Return the label with most evidence and its confidence; None where nothing was said, or unknown has most.
+def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
+    """Return the question with its answer, and words that ask for what that left open; with more room if it was cut."""
+    odd = ", ".join(json.dumps(word, ensure_ascii=False) for word in answer.unrecognised)
+    why = f" ({odd} {'is no label' if len(answer.unrecognised) == 1 else 'are no labels'})" if odd else ""
+    text = _AGAIN.format(why=why, numbers=", ".join(map(str, answer.open)))
+    messages = *question.messages, Message.assistant(reply.text[:_QUOTED] or "-"), Message.user(text)
+    return replace(question, messages=messages, limit=question.limit * (2 if reply.is_cut else 1))
 
-    Of equals the first of the vocabulary.
+
+@dataclass(frozen=True, slots=True)
+class VlmAnswers:
+    """What a model said of hulls. labels: by asset and hull, also that for unknown; open: why hulls that were asked
+    about have none, or that.
+
+    failed: complaints about questions that got no answer, in their order, each once.
     """
-    score: dict[str | None, float] = dict.fromkeys((*vocabulary, None), 0.0)
-    for label, weight in votes:
-        score[label] += weight
-    best = max(score, key=lambda label: score[label])
-    if best is None or not score[best]:
-        return None
-    return best, round(score[best] / (sum(score.values()) + _AGAINST), 4)
+
+    labels: Mapping[str, Mapping[str, Label]]
+    open: Mapping[str, Mapping[str, str]]
+    failed: tuple[str, ...]
+
+
+def ask_questions(
+    client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
+) -> VlmAnswers:
+    """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
+    votes, why, failed = defaultdict[HullKey, list[str]](list), dict[HullKey, str](), dict[str, None]()
+    words = (*config.vocabulary, config.unknown)
+    for one in questions:
+        question, left = one.question, tuple(one.hulls)
+        why = {one.hulls[number]: _UNANSWERED for number in left} | why
+        for _ in range(2):
+            try:
+                reply = client.ask(question)
+            except QuestionError as error:
+                failed[error.sentence] = None
+                break
+            answer = read_answer(reply.text, left, words)
+            for number, label in answer.labels.items():
+                votes[one.hulls[number]].append(label)
+            left = answer.open
+            cause = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
+            why |= {one.hulls[number]: cause for number in left}
+            if not left:
+                break
+            question = ask_again(question, reply, answer)
+    labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
+    for asset, hull in why if wanted is None else filter(wanted.__contains__, why):
+        if found := decide_label(votes[asset, hull], words):
+            labels[asset][hull] = Label(*found, "vlm")
+        if not found or found[0] == config.unknown:
+            left_open[asset][hull] = _NOT_KNOWN if found else why[asset, hull]
+    return VlmAnswers(dict(labels), dict(left_open), tuple(failed))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -15,9 +14,7 @@ from meshforge.labels.vlm.question import VlmQuestion
 _CHARACTERS = 3.0  # of a text for a token; English has about four, other languages fewer
 _PIXELS = 700.0  # of a picture for a token: models that name it take one for 750 (Claude) to 1370 (GPT-4o)
 _PICTURE = 100  # tokens of a picture, however small
-_REMEMBERED = 20  # answers by which the estimate is corrected
 _MARGIN = 1.1
-_ADDED = ("answered", "cached", "retries", "usage", "perhaps", "lost")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +36,8 @@ class Usage:
 
     def __add__(self, other: Usage) -> Usage:
         cost = None if self.cost is None else self.cost + (other.cost or 0.0)
-        rest = {name: getattr(self, name) + getattr(other, name) for name in _ADDED}
+        names = ("answered", "cached", "retries", "usage", "perhaps", "lost")
+        rest = {name: getattr(self, name) + getattr(other, name) for name in names}
         return Usage(cost=cost, **rest)
 
 
@@ -54,13 +52,11 @@ class CostLimiter:
         self._endpoint, self._most = endpoint, math.inf if most is None else most
         self._changed = threading.Condition()
         self._reserved = 0.0
-        self._ratios: deque[float] = deque([1.0], maxlen=_REMEMBERED)
+        self._ratio = 1.0  # how far the estimate was below what the server counted, at worst
 
     def upper_bound(self, question: VlmQuestion) -> float:
         """Return what a question may cost at most [$], as far as can be known."""
-        with self._changed:
-            ratio = max(1.0, *self._ratios)
-        most = estimate_tokens(question) * ratio * _MARGIN
+        most = estimate_tokens(question) * self._ratio * _MARGIN
         return self._endpoint.price(TokenCount(int(most), question.limit))
 
     def reserve(self, bound: float, stop: Callable[[], bool]) -> None:
@@ -90,7 +86,7 @@ class CostLimiter:
         counted = usage or TokenCount(expected, 0, estimated=True)
         price = self._endpoint.price(counted)
         with self._changed:
-            self._ratios.append(counted.input / expected)
+            self._ratio = max(self._ratio, counted.input / expected)
         self.count(Usage(answered=1, usage=counted, cost=price))
         return counted, price
 
@@ -107,9 +103,6 @@ class CostLimiter:
 
 def estimate_tokens(question: VlmQuestion) -> int:
     """Return about how many tokens a question has; models differ widely in how they count pictures."""
-    pictures = sum(_PICTURE + width * height / _PIXELS for width, height in map(_png_size, question.pictures))
+    sizes = ((int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) for png in question.pictures)
+    pictures = sum(_PICTURE + width * height / _PIXELS for width, height in sizes)
     return int(len(question.text) / _CHARACTERS + pictures) + 1
-
-
-def _png_size(picture: bytes) -> tuple[int, int]:
-    return int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")

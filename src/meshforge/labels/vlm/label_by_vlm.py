@@ -1,59 +1,28 @@
-"""Labels from a model, each asset written as soon as it is answered; and a forecast of what that costs."""
+"""Labels from a model: of exemplars, propagated to all hulls that are like them, or of every hull; and what that would
+cost."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
-from functools import partial
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from contextlib import closing
+from dataclasses import dataclass, replace
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
-from meshforge.common import UsageError, describe_error
-from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.label_model import reference_label
+from meshforge.labels.family_comparison import FamilyDescription, compare_assets
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
+from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
-from meshforge.labels.vlm.mesh_asker import MeshAsker, OpenAnswers, write_page
-from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions
-from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
-from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
+from meshforge.labels.vlm.plan import QuestionBatch, draw_questions, plan_questions
+from meshforge.labels.vlm.prompt import PromptConfig
+from meshforge.store import Store, VlmSettings
+from meshforge.symbolic import Label
 
-
-@dataclass(frozen=True, slots=True)
-class _AssetQuestions:
-    """What is asked about an asset. hulls: digests by name, in order; wanted: the hulls whose labels may change.
-
-    error: why it cannot be read or drawn.
-    """
-
-    asset: str
-    hulls: Mapping[str, str] = field(default_factory=dict)
-    wanted: tuple[str, ...] = ()
-    questions: tuple[HullQuestion, ...] = ()
-    error: str | None = None
-
-
-def _draw_assets(
-    store: Store, config: PromptConfig, execution: ExecutionOptions
-) -> Generator[_AssetQuestions, None, None]:
-    """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
-    assets = store.assets()
-    items = list(zip(assets, store.asset_files(assets), strict=True))
-    with closing(execute(partial(_draw, config), items, execution)) as work:
-        for asset, found in zip(assets, work, strict=True):
-            if isinstance(found, WorkerFailure):
-                found = _AssetQuestions(asset, error=f"{store.path(asset)}: {found.why}")
-            yield found
-
-
-def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> _AssetQuestions:
-    asset, place = item
-    try:
-        mesh = place.read_mesh()
-        wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
-        return _AssetQuestions(asset, hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, config, asset)))
-    except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return _AssetQuestions(asset, error=describe_error(error, asset))
+_LIKE_UNKNOWN = "the model does not know hulls that are like it"
+_WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
 def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str], typed: Collection[str] = ()) -> None:
@@ -82,17 +51,18 @@ class VlmResult:
 
 
 class VlmLabeler(Labeler):
-    """Asks a vision-language model; labels of people and files stay. Answers are kept, so that none is paid for twice.
+    """Asks a vision-language model about exemplars, and propagates their labels to hulls that are like them; or asks
+    about every hull, where the settings say so. Labels of people and files stay. Answers are kept, so that none is paid
+    for twice.
 
     settings: those of the project when None; typed: addresses that the user typed, who thereby approves them: elsewhere
-    but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking, and what was
-    answered by then is proposed. result: how it went, once all is proposed.
+    but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking; the labels that
+    the model gave by then are proposed, and not propagated. result: how it went, once all is proposed.
     Raises MeshForgeError where nothing could be asked at all.
     """
 
     name = "vlm"
     about = "labels by a vision-language model"
-    work = "asking"
 
     def __init__(self, settings: VlmSettings | None = None, typed: Collection[str] = ()) -> None:
         self.settings, self.typed = settings, typed
@@ -101,73 +71,95 @@ class VlmLabeler(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         settings = self.settings or family.store.settings.vlm
         check_approved(Endpoint(settings), self.typed)
-        return LabelProposal(self._ask(family, PromptConfig(family.vocabulary, settings)))
+        labels = [*self._label(family, PromptConfig(family.vocabulary, settings))]
+        return LabelProposal(one for one in labels)
 
-    def _ask(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
-        store, stop = family.store, family.execution.stop or (lambda: False)
-        pending, reached = dict[str, tuple[_AssetQuestions, OpenAnswers]](), set[str]()
-        with _open_asker(store, config, replace(family.execution, stop=None), stop) as (client, asker, drawn):
-
-            def finish(assets: Iterable[str]) -> Iterator[AssetLabels]:
-                for asset in assets:
-                    if labels := _read_answers(store, client, *pending.pop(asset)):
-                        reached.add(asset)
-                        yield labels
-
-            while not (client.end or stop()) and (one := next(drawn, None)):
-                pending[one.asset] = one, asker.ask(one.wanted, one.questions)
-                yield from finish([asset for asset, (_, answers) in pending.items() if answers.is_done()])
-            yield from finish(list(pending))
-        if client.end and not client.usage.answered + client.usage.cached:
-            raise client.end
-        unasked = tuple(asset for asset in store.assets() if asset not in reached)
-        ended = client.end.message if client.end else "stopped" if unasked else None
+    def _label(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
+        store, settings, stop = family.store, config.settings, family.execution.stop or (lambda: False)
+        described, plans = plan_questions(family, config)
+        lost, hulls = (described.lost, dict(described.hulls)) if described else ({}, {})
+        labels, left = dict[str, Mapping[str, Label]](), dict[str, Mapping[str, str]]()
+        problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
+        client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
+        with closing(client), family.stage(len(plans), "asking") as advance:
+            for drawn, answers in _ask(client, family, config, draw_questions(family, plans, config)):
+                hulls |= drawn.assets
+                labels |= answers.labels
+                left |= answers.open
+                lost |= dict.fromkeys(drawn.plan, drawn.error) if drawn.error else {}
+                problems[next(iter(drawn.plan))] = answers.failed
+                reached |= {*drawn.plan} if answers.labels or not answers.failed else set()
+                done += 1
+                advance()
+        end = client.end
+        if end and not client.usage.answered + client.usage.cached:
+            raise end
+        is_whole = not end and done == len(plans)
+        ended = None if is_whole else end.message if end else "stopped"
+        unasked = () if is_whole else tuple(asset for asset in store.assets() if asset not in reached)
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
+        shares = _propagate(family, described, labels, config.unknown) if described and is_whole else {}
+        for asset in (asset for asset in store.assets() if is_whole or asset in reached):
+            if asset in lost:
+                yield AssetLabels(asset, error=lost[asset])
+                continue
+            given, known = {**shares.get(asset, {}), **labels.get(asset, {})}, described.current if described else {}
+            bare = {hull: _LIKE_UNKNOWN for hull, label in given.items() if label.name == config.unknown}
+            bare = {h: why for h, why in {**bare, **left.get(asset, {})}.items() if h not in known.get(asset, {})}
+            given = {hull: one for hull, one in given.items() if hull not in bare and one.name != config.unknown}
+            reasons = {hull: ("model" if label.source == "vlm" else "likeness", hull) for hull, label in given.items()}
+            failed = [problem for problem in problems.get(asset, ()) if not end or problem != end.sentence]
+            yield AssetLabels(asset, hulls[asset], given, reasons, failed, open=bare)
 
 
-def _read_answers(store: Store, client: Client, drawn: _AssetQuestions, pending: OpenAnswers) -> AssetLabels | None:
-    if drawn.error:
-        return AssetLabels(drawn.asset, error=drawn.error)
-    answers, end = pending.result(), client.end
-    if end and answers.failed and not answers.labels:
-        return None  # the result says once that asking ended, and which assets were not reached
-    if answers.asked:
-        write_page(store.layout.vlm, drawn.asset, answers)
-    failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
-    reasons = {hull: ("model", hull) for hull in answers.labels}
-    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed, open=answers.open)
+def _ask(
+    client: Client, family: LabelFamily, config: PromptConfig, questions: Generator[QuestionBatch, None, None]
+) -> Iterator[tuple[QuestionBatch, VlmAnswers]]:
+    """Yield questions with their answers, in order, as long as asking goes on; several are under way at once."""
+    stop, concurrency = family.execution.stop or (lambda: False), config.settings.concurrency
+    threads = ThreadPoolExecutor(concurrency, "asking")
+    waiting = list[tuple[QuestionBatch, Future[VlmAnswers]]]()
+
+    def take() -> tuple[QuestionBatch, VlmAnswers]:
+        drawn, future = waiting.pop(0)
+        while not future.done():
+            stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
+            wait([future], timeout=0.1)
+        return drawn, future.result()
+
+    try:
+        with closing(questions):
+            while not (client.end or stop()) and (one := next(questions, None)):
+                waiting.append((one, threads.submit(ask_questions, client, config, one.questions, one.wanted)))
+                while waiting and (len(waiting) > _WAITING * concurrency or waiting[0][1].done()):
+                    yield take()
+        while waiting:
+            yield take()
+    finally:  # no more is asked; what is under way is kept when its answer comes, yet not waited for
+        threads.shutdown(wait=False, cancel_futures=True)
 
 
-@contextmanager
-def _open_asker(
-    store: Store, config: PromptConfig, execution: ExecutionOptions, stop: Callable[[], bool] = lambda: False
-) -> Iterator[tuple[Client, MeshAsker, Iterator[_AssetQuestions]]]:
-    """What asks about a project, and its assets as they are drawn."""
-    settings = config.settings
-    client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
-    with (
-        closing(client),
-        closing(MeshAsker(client, config, _read_examples(store, settings))) as asker,
-        closing(_draw_assets(store, config, execution)) as drawn,
-    ):
-        yield client, asker, drawn
+def _propagate(
+    family: LabelFamily, described: FamilyDescription, labels: Mapping[str, Mapping[str, Label]], unknown: str
+) -> Mapping[str, Mapping[str, Label]]:
+    """The labels of all hulls, by asset, that follow from those of a model and from what people and files say.
 
-
-def _read_examples(store: Store, settings: VlmSettings) -> Iterator[SymbolicMesh]:
-    """The labelled assets that are shown as examples, with labels that somebody gave."""
-    for asset in settings.examples:
-        mesh = store.mesh(asset)
-        guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
-        if len(guessed) == len(mesh.hulls):
-            remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
-            raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
-        yield mesh.with_labels(guessed)
+    unknown: a label like others, that hulls get which are like those that the model does not know.
+    """
+    given = {a: {h: one for h, one in own.items() if reference_label(one)} for a, own in described.current.items()}
+    heard = {asset: {**labels.get(asset, {}), **own} for asset, own in given.items()}
+    if not any(heard.values()):
+        return {}
+    family = replace(family, vocabulary=(*family.vocabulary, unknown))
+    compared = compare_assets(family, lambda asset, _: heard[asset], described=described)
+    found = [label for place in range(len(compared.assets)) for label in compared.found.labels(place)]
+    return dict(compared.share_out(found))
 
 
 @dataclass(slots=True)
 class VlmForecast:
-    """What asking would send. host, model, mode: who is asked, and how; key: the environment variable of the key, empty
-    where none is wanted, and whether it is set.
+    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars; key: the
+    environment variable of the key, empty where none is wanted, and whether it is set.
 
     assets, hulls: how many of them are asked about; questions, of which `known` have their answers already; pictures,
     input, output: what the others send, and tokens that this may come to; cost: their price [$], None where prices are
@@ -176,7 +168,7 @@ class VlmForecast:
 
     host: str
     model: str
-    mode: str
+    every_hull: bool
     key: str
     key_is_set: bool
     assets: int = 0
@@ -194,8 +186,8 @@ def forecast_vlm(
     store: Store,
     settings: VlmSettings | None = None,
     *,
-    progress: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    progress: Callable[[], None] = lambda: None,
+    stop: Callable[[], bool] = lambda: False,
     vocabulary: Sequence[str] | None = None,
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmForecast:
@@ -206,23 +198,23 @@ def forecast_vlm(
     settings = settings or store.settings.vlm
     endpoint = Endpoint(settings)
     config = PromptConfig(store.vocabulary if vocabulary is None else tuple(vocabulary), settings)
-    found = VlmForecast(endpoint.host, settings.model, settings.mode, endpoint.key_name, endpoint.has_key)
-    with _open_asker(store, config, execution) as (client, asker, drawn):
-        while not (stop and stop()) and (one := next(drawn, None)):
-            if one.error:  # `VlmLabeler` says then what is wrong
-                found.unreadable += (one.asset,)
-                continue
-            found.assets += bool(one.wanted)
+    found = VlmForecast(endpoint.host, settings.model, settings.every_hull, endpoint.key_name, endpoint.has_key)
+    family = LabelFamily(store, config.vocabulary, execution, ignore_stage)
+    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
+    described, plans = plan_questions(family, config)
+    found.unreadable = tuple(described.lost) if described else ()
+    with closing(draw_questions(family, plans, config)) as drawn:
+        while not stop() and (one := next(drawn, None)):
+            found.unreadable += (*one.plan,) if one.error else ()  # `VlmLabeler` says then what is wrong
+            found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
-            for asked in map(asker.add_examples, one.questions):
-                found.questions += 1
-                if client.find_answer(asked.question):
-                    found.known += 1
-                    continue
-                found.pictures += len(asked.question.digests)
-                found.input += estimate_tokens(asked.question)
-                found.output += asked.expected
-            if progress:
+            found.questions += len(one.questions)
+            fresh = [asked for asked in one.questions if not client.find_answer(asked.question)]
+            found.known += len(one.questions) - len(fresh)
+            found.pictures += sum(len(asked.question.digests) for asked in fresh)
+            found.input += sum(estimate_tokens(asked.question) for asked in fresh)
+            found.output += sum((asked.question.limit - settings.room) // 2 for asked in fresh)
+            for _ in one.plan:
                 progress()
     if endpoint.is_priced:
         found.cost = endpoint.price(TokenCount(found.input, found.output))

@@ -1,76 +1,61 @@
-"""The questions about the hulls of a mesh: which hulls in which pictures, and the words."""
+"""The questions about hulls of one mesh, or of several of a kind: which hulls in which pictures, and the words."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
+
+import numpy as np
 
 from meshforge.common import UsageError
-from meshforge.labels.vlm.answer import clearness
 from meshforge.labels.vlm.question import Message, Part, VlmQuestion
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
 from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
-ModeName = Literal["cheap", "balanced", "exact"]
+HullKey = tuple[str, str]
+"""The name of a mesh, and that of one of its hulls."""
 
+MOST_COLORS = 12
+"""Hulls that have a colour in one picture at most: more colours are not told apart."""
+_MOST_HULLS = 10 * MOST_COLORS  # in one question, so that servers take its pictures
+_VIEWS = 2  # pictures of each group of hulls, beside those of hulls that these do not show
 _UNKNOWN = ("unknown", "cannot tell", "?")
 
 _TASK = """\
 You name the parts of three-dimensional objects. An object is shown as the convex pieces that its collision mesh is made
-of. Pieces that you are asked about have a colour each and a number; a number stands on its piece, or beside it at the
-end of a line that leads there. Other pieces are pale. One part of the object may be made of several pieces, which then
-have the same label, and pieces are rougher than the part itself.
+of; beside the first picture is the object as it looks. Pieces that you are asked about have a colour each and a number;
+a number stands on its piece, or beside it at the end of a line that leads there. Other pieces are pale. One part may be
+made of several pieces, which then have the same label, and pieces are rougher than the part itself.
 
-Find out first what the object is, then for each piece asked about which part of it the piece belongs to: by its place,
-its size and shape, and what it touches. Compare the pictures: a number is the same piece in all of them.
+Each piece has a line of text: its size, the place of its middle, and the pieces that it touches. Sizes and places are
+in percent of the whole object, along X, Y and Z. {up} is up{about}.
+
+Find out first what the object is and which parts it has, then which part each piece belongs to: by its place, its size
+and shape, and what it touches. Compare the pictures: a number is the same piece in all of them.
 
 The labels are:
 {labels}
 - {unknown}: none of these, or it cannot be told from the pictures. Say this rather than guess.
 
-{up} is up{about}. Each picture tells from where it is seen.
-
 Answer with JSON only, with one entry for each number asked about, no other number, and labels spelled as above:
-{{"hulls": [{{"number": 3, "label": "{example}"}}, ...]}}"""
+{{"object": "what it is", "parts": ["its parts", ...], "hulls": [{{"number": 3, "label": "{example}"}}, ...]}}"""
 
-_AGAIN = """\
-That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
-
-_ENTRY_TOKENS = 30  # tokens of an answer for each hull, at most
-_EXPECTED_TOKENS = 15  # and about as many as it takes
-
-
-@dataclass(frozen=True, slots=True)
-class PictureMode:
-    """hulls: asked about in one question at most; pictures: numbered ones of so many hulls; size [px] of each side.
-
-    questions: over which the pictures are spread, so that each hull is judged several times; plain: of how many of the
-    pictures of a question the same without numbers stands beside it.
-    """
-
-    hulls: int
-    pictures: int
-    size: int
-    questions: int
-    plain: int
-
-
-MODES: Mapping[ModeName, PictureMode] = {
-    "cheap": PictureMode(hulls=40, pictures=4, size=768, questions=1, plain=1),
-    "balanced": PictureMode(hulls=12, pictures=4, size=1024, questions=2, plain=2),
-    "exact": PictureMode(hulls=5, pictures=6, size=1024, questions=6, plain=1),
-}
+_BEFORE_TOKENS, _ENTRY_TOKENS = 150, 30  # tokens of an answer: before the labels, and for each hull, at most
 
 
 @dataclass(frozen=True, slots=True)
 class PromptConfig:
-    """How hulls are asked about: the labels, and what the table [vlm] says. Raises UsageError for what does not fit."""
+    """How hulls are asked about: the labels, what the table [vlm] says, and labelled meshes that are shown before.
+
+    Raises UsageError for what does not fit.
+    """
 
     vocabulary: tuple[str, ...]
     settings: VlmSettings
+    examples: tuple[Message, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.vocabulary:
@@ -80,137 +65,127 @@ class PromptConfig:
             raise UsageError(f"the label {unrecognised!r} is described, but is not in the vocabulary")
 
     @property
-    def picture_mode(self) -> PictureMode:
-        """The mode, with pictures of the size that was chosen."""
-        mode, size = MODES[self.settings.mode], self.settings.size
-        return mode if size is None else replace(mode, size=size)
-
-    @property
     def unknown(self) -> str:
         """What a model says of a hull that it does not know."""
         return next(word for word in _UNKNOWN if word not in self.vocabulary)
 
-    def words(self, repeat: int) -> Sequence[str]:
-        """Return the labels; each repeat lists them in another order, since the order must not matter."""
-        turn = repeat % len(self.vocabulary)
-        return (*self.vocabulary[turn:], *self.vocabulary[:turn])
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MeshHulls:
+    """A mesh, and those of its hulls that a question is about. name: of the asset."""
+
+    name: str
+    mesh: SymbolicMesh
+    hulls: Sequence[str]
 
 
-def _task_message(config: PromptConfig, up: str, repeat: int) -> Message:
-    words, known, about = config.words(repeat), config.settings.descriptions, config.settings.about
+@dataclass(frozen=True, slots=True)
+class HullQuestion:
+    """A question about some hulls. hulls: by the number they have in it."""
+
+    question: VlmQuestion
+    hulls: Mapping[int, HullKey]
+
+
+def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
+    """Return the question about hulls of some meshes, once for each repeat; of one with very many hulls several."""
+    first, *more = meshes
+    if not more and len(first.hulls) > _MOST_HULLS:
+        groups = (replace(first, hulls=hulls) for hulls in _split(first.hulls, _MOST_HULLS))
+        return tuple(one for group in groups for one in build_questions([group], config))
+    pictures, hulls = _show_meshes(meshes, config)
+    messages = _task_message(config, f"+{up_axis(first.mesh)}"), *config.examples, pictures
+    limit = config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
+    question = VlmQuestion(messages, _answer_schema(config), limit)
+    return tuple(HullQuestion(replace(question, repeat=k), hulls) for k in range(config.settings.repeats))
+
+
+def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
+    """Return a labelled mesh as a question with its answer: a few hulls of each label; nothing where none has one."""
+    labels = [hull.label for hull in mesh.hulls]
+    order = sorted(range(len(labels)), key=lambda k: (labels[:k].count(labels[k]), k))
+    few = sorted([k for k in order if labels[k] in config.vocabulary][:MOST_COLORS])
+    if not few:
+        return ()
+    pictures, hulls = _show_meshes([MeshHulls(name, mesh, [mesh.hulls[k].name for k in few])], config)
+    rows = [{"number": number, "label": labels[k]} for number, k in zip(hulls, few, strict=True)]
+    parts = [label for label in config.vocabulary if label in labels]
+    answer = {"object": config.settings.about or "one of these objects", "parts": parts, "hulls": rows}
+    return pictures, Message.assistant(json.dumps(answer, ensure_ascii=False))
+
+
+def _show_meshes(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[Message, dict[int, HullKey]]:
+    """The pictures and lines of text of some hulls; and the hulls by number."""
+    parts, hulls = list[Part](), dict[int, HullKey]()
+    for place, asked in enumerate(meshes):
+        index, begin = asked.mesh.index, len(hulls)
+        numbers = {hull: begin + k if len(meshes) > 1 else index[hull] for k, hull in enumerate(asked.hulls)}
+        hulls |= {number: (asked.name, hull) for hull, number in numbers.items()}
+        what = f"object {place + 1}" if len(meshes) > 1 else "the object"
+        parts.append(f"This is {what}{f', {asked.name!r}' if config.settings.names else ''}.")
+        groups, size = _split(asked.hulls, MOST_COLORS), config.settings.size
+        rows = ({hull: numbers[hull] for hull in group} for group in groups)
+        shots = [s for own in rows for s in draw_labeling_pictures(asked.mesh, hulls=own, most=_VIEWS, size=size)]
+        for k, shot in enumerate(shots):
+            beside = "; beside it the object as it looks" if k == 0 else ""
+            parts += [f"Picture: {shot.name}{beside}.", encode_png(shot.marked if k else _join(shot))]
+        parts.append("\n".join(_describe_hulls(asked.mesh, numbers, names=config.settings.names)))
+    parts.append(f"Which part does each of these pieces belong to: {', '.join(map(str, hulls))}?")
+    return Message.user(*parts), hulls
+
+
+def _join(shot: LabelingPicture) -> Any:
+    """The numbered picture with the plain one at its right."""
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
+
+    both = Image.new("RGB", (2 * shot.marked.width, shot.marked.height))
+    both.paste(shot.marked, (0, 0))
+    both.paste(shot.plain, (shot.marked.width, 0))
+    return both
+
+
+def _describe_hulls(mesh: SymbolicMesh, numbers: Mapping[str, int], *, names: bool) -> Iterator[str]:
+    """A line a hull: its size, place and contacts."""
+    low, high = mesh.corners
+    foot = low.min(axis=0)
+    unit = np.maximum(high.max(axis=0) - foot, 1e-9) / 100
+    for hull, number in numbers.items():
+        k = mesh.index[hull]
+        size, middle = np.rint([(high[k] - low[k]) / unit, ((high[k] + low[k]) / 2 - foot) / unit]).astype(int).tolist()
+        touching = [mesh.hulls[other].name for other in sorted(mesh.neighbours(k))]
+        known = [str(numbers[other]) for other in touching if other in numbers]
+        others = len(touching) - len(known)
+        known += [f"{others} {'other' if known else 'without number'}"] if others else []
+        contacts = f"touches {', '.join(known)}" if known else "touches nothing"
+        name = f" ({hull!r})" if names else ""
+        yield f"{number}{name}: size {' x '.join(map(str, size))}, at {', '.join(map(str, middle))}; {contacts}"
+
+
+def _split(hulls: Sequence[str], most: int) -> list[Sequence[str]]:
+    """Hulls in as few groups as possible, of about the same size."""
+    count = -(-len(hulls) // most)
+    return [hulls[k * len(hulls) // count : (k + 1) * len(hulls) // count] for k in range(count)]
+
+
+def _task_message(config: PromptConfig, up: str) -> Message:
+    words, known, about = config.vocabulary, config.settings.descriptions, config.settings.about
     labels = [f"- {word}: {_to_line(known[word])}" if word in known else f"- {word}" for word in words]
     about = f". The objects are: {_to_line(about)}" if about else ""
     text = _TASK.format(labels="\n".join(labels), unknown=config.unknown, up=up, about=about, example=words[0])
     return Message.system(text)
 
 
-def _question_message(
-    shots: Sequence[LabelingPicture], plain: int, hulls: Mapping[int, str], name: str = ""
-) -> Message:
-    """Pictures, and the numbers that are asked about.
-
-    plain: of how many of the first pictures the same without numbers is shown; hulls: by number, in order;
-    name: that of the asset, empty where the model is given no names.
-    """
-    parts: list[Part] = [f"This is {name!r}." if name else "This is the object."]
-    for k, shot in enumerate(shots):
-        parts += [f"Picture: {shot.name}.", encode_png(shot.marked)]
-        if k < plain:
-            parts += ["The same without numbers.", encode_png(shot.plain)]
-    listed = ", ".join(f"{number} ({hull!r})" if name else str(number) for number, hull in hulls.items())
-    parts.append(f"Which part does each of these pieces belong to: {listed}?")
-    return Message("user", tuple(parts))
+def _answer_schema(config: PromptConfig) -> dict[str, Any]:
+    """What the object is and its parts come first, so that the labels follow from them."""
+    label = {"type": "string", "enum": [*config.vocabulary, config.unknown]}
+    row = _object_schema(number={"type": "integer"}, label=label)
+    parts = {"type": "array", "items": {"type": "string"}}
+    return _object_schema(object={"type": "string"}, parts=parts, hulls={"type": "array", "items": row})
 
 
-def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
-    """Return a labelled mesh as a question with its answer; nothing where no hull has a label of the vocabulary."""
-    mode = config.picture_mode
-    labelled = [hull.name for hull in mesh.hulls if hull.label in config.vocabulary][: mode.hulls]
-    if not labelled:
-        return ()
-    shots = draw_labeling_pictures(mesh, hulls=labelled, most=min(2, mode.pictures), size=mode.size)
-    hulls = _number_hulls(mesh, labelled, shots)
-    rows = [{"number": number, "label": mesh.hull_of(hull).label or config.unknown} for number, hull in hulls.items()]
-    return _question_message(shots, 0, hulls), Message.assistant(json.dumps({"hulls": rows}, ensure_ascii=False))
-
-
-def _number_hulls(mesh: SymbolicMesh, hulls: Sequence[str], shots: Sequence[LabelingPicture]) -> dict[int, str]:
-    return {mesh.index[hull]: hull for hull in hulls if any(hull in shot.numbered for shot in shots)}
-
-
-def retry_message(numbers: Sequence[int], unrecognised: Sequence[str]) -> Message:
-    """Return the words that ask once more for what an answer left open; odd: words in it that are no labels."""
-    words = ", ".join(json.dumps(word, ensure_ascii=False) for word in unrecognised)
-    why = f" ({words} {'is no label' if len(unrecognised) == 1 else 'are no labels'})" if unrecognised else ""
-    return Message.user(_AGAIN.format(why=why, numbers=", ".join(map(str, numbers))))
-
-
-def _answer_schema(config: PromptConfig, repeat: int) -> dict[str, Any]:
-    labels = {"type": "string", "enum": [*config.words(repeat), config.unknown]}
-    entry = {"number": {"type": "integer"}, "label": labels}
-    row = {"type": "object", "properties": entry, "required": list(entry), "additionalProperties": False}
-    return {
-        "type": "object",
-        "properties": {"hulls": {"type": "array", "items": row}},
-        "required": ["hulls"],
-        "additionalProperties": False,
-    }
+def _object_schema(**fields: Any) -> dict[str, Any]:
+    return {"type": "object", "properties": fields, "required": [*fields], "additionalProperties": False}
 
 
 def _to_line(text: str) -> str:
     return " ".join(text.split()).rstrip(".")
-
-
-@dataclass(frozen=True, slots=True)
-class HullQuestion:
-    """A question about some hulls. hulls: by the number they have in it; weights: how well each is seen, in 0..1."""
-
-    question: VlmQuestion
-    hulls: Mapping[int, str]
-    weights: Mapping[int, float]
-
-    @property
-    def expected(self) -> int:
-        """About how many tokens the answer has."""
-        return _EXPECTED_TOKENS * (len(self.hulls) + 1)
-
-    def show_examples(self, examples: tuple[Message, ...]) -> HullQuestion:
-        """Return the same question with messages that show labelled assets before its own pictures."""
-        instructions, *pictures = self.question.messages
-        return replace(self, question=replace(self.question, messages=(instructions, *examples, *pictures)))
-
-
-def build_questions(
-    mesh: SymbolicMesh, wanted: Collection[str], config: PromptConfig, name: str = ""
-) -> Iterator[HullQuestion]:
-    """Yield the questions about a mesh. Groups in which no hull is wanted are passed over.
-
-    The groups do not depend on what is wanted, so that answers can be found again when some hulls have a label by then.
-    name: that of the asset, which the model is given where the config says so.
-    """
-    mode, names = config.picture_mode, list(mesh.index)
-    count = -(-len(names) // mode.hulls)
-    for k in range(count):
-        group = names[k * len(names) // count : (k + 1) * len(names) // count]
-        if set(group).isdisjoint(wanted):
-            continue
-        shots = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)
-        parts = min(mode.questions, len(shots))
-        for part in range(parts):
-            yield from _ask_in_repeats(mesh, shots[part::parts], group, config, name if config.settings.names else "")
-
-
-def _ask_in_repeats(
-    mesh: SymbolicMesh, shots: Sequence[LabelingPicture], group: Sequence[str], config: PromptConfig, name: str
-) -> Iterator[HullQuestion]:
-    hulls, mode = _number_hulls(mesh, group, shots), config.picture_mode
-    if not hulls:
-        return
-    pictures = _question_message(shots, mode.plain, hulls, name)
-    pixels = {n: sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered) for n, hull in hulls.items()}
-    weights = {number: clearness(count, mode.size) for number, count in pixels.items()}
-    limit = config.settings.room + _ENTRY_TOKENS * len(hulls)
-    for repeat in range(config.settings.repeats):
-        messages = _task_message(config, f"+{up_axis(mesh, None)}", repeat), pictures
-        question = VlmQuestion(messages, _answer_schema(config, repeat), limit, repeat=repeat)
-        yield HullQuestion(question, hulls, weights)

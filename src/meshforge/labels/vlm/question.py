@@ -5,8 +5,8 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -77,21 +77,14 @@ class VlmQuestion:
     def document(self, endpoint: Endpoint) -> dict[str, Any]:
         """Return all that the answer depends on, with digests in place of pictures; there is no key in it."""
         names = iter(self.digests)
-        return {
-            "base_url": endpoint.place,
-            "model": endpoint.settings.model,
-            "extra": dict(endpoint.settings.extra),
+        parts = ([{"picture": next(names)} if isinstance(p, bytes) else p for p in m.parts] for m in self.messages)
+        settings = endpoint.settings
+        return {"base_url": endpoint.place, "model": settings.model, "extra": dict(settings.extra)} | {
             "temperature": self.temperature,
             "limit": self.limit,
             "repeat": self.repeat,
             "schema": self.schema,
-            "messages": [
-                {
-                    "role": message.role,
-                    "parts": [{"picture": next(names)} if isinstance(part, bytes) else part for part in message.parts],
-                }
-                for message in self.messages
-            ],
+            "messages": [{"role": m.role, "parts": own} for m, own in zip(self.messages, parts, strict=True)],
         }
 
     def digest(self, endpoint: Endpoint) -> str:
@@ -99,44 +92,32 @@ class VlmQuestion:
         return _digest(json.dumps(self.document(endpoint), ensure_ascii=True, sort_keys=True).encode())
 
 
-_LESS: Mapping[str, Mapping[str, Any]] = {
-    "schema": {"schema": False},
-    "response_format": {"schema": False},
-    "temperature": {"temperature": False},
-    "max_tokens": {"limit": "max_completion_tokens"},
-}
-"""What is asked for no more, by the word with which servers complain about it; the first that can be spared first."""
+_OPTIONAL = {"response_format": "schema", "temperature": "temperature", "max_tokens": "max_tokens"}
+"""What servers may refuse, with the word by which they complain about it; the first that can be spared first. In place
+of the last there is another name."""
 
 
-@dataclass(frozen=True, slots=True)
-class ServerFeatures:
-    """What of a request is not refused. schema: the form of answers; temperature: can be set.
+def build_body(question: VlmQuestion, endpoint: Endpoint, refused: Collection[str] = ()) -> dict[str, Any]:
+    """Return the request that puts a question to the model; refused: what is left out of it."""
+    form = {"name": "answer", "strict": True, "schema": question.schema}
+    every: dict[str, Any] = {
+        "model": endpoint.settings.model,
+        "messages": [{"role": m.role, "content": _format_content(m)} for m in question.messages],
+        "response_format": {"type": "json_schema", "json_schema": form} if question.schema else None,
+        "temperature": question.temperature,
+        "max_tokens": question.limit,
+        "max_completion_tokens": question.limit if "max_tokens" in refused else None,
+    }
+    kept = {name: value for name, value in every.items() if value is not None and name not in refused}
+    return kept | dict(endpoint.settings.extra)
 
-    limit: the name of the field for the room of an answer.
-    """
 
-    schema: bool = True
-    temperature: bool = True
-    limit: str = "max_tokens"
-
-    def body(self, question: VlmQuestion, endpoint: Endpoint) -> dict[str, Any]:
-        """Return the request that puts a question to the model."""
-        body: dict[str, Any] = {
-            "model": endpoint.settings.model,
-            "messages": [{"role": m.role, "content": _format_content(m)} for m in question.messages],
-            self.limit: question.limit,
-        }
-        if self.temperature:
-            body["temperature"] = question.temperature
-        if self.schema and question.schema is not None:
-            form = {"name": "answer", "strict": True, "schema": question.schema}
-            body["response_format"] = {"type": "json_schema", "json_schema": form}
-        return body | dict(endpoint.settings.extra)
-
-    def without(self, complaint: str) -> ServerFeatures | None:
-        """Return these without the one that the server complains about, or else the next; None: none is left."""
-        left = {word: less for word, change in _LESS.items() if (less := replace(self, **change)) != self}
-        return next((less for word, less in left.items() if word in complaint.lower()), next(iter(left.values()), None))
+def find_refused(complaint: str, refused: Collection[str], *, is_first: bool) -> str | None:
+    """Return what a server complains about, or else what can be spared next, after the first question only the schema;
+    None: nothing."""
+    left = {name: word for name, word in _OPTIONAL.items() if name not in refused}
+    named = (name for name, word in left.items() if word in complaint.lower() or name in complaint.lower())
+    return next(named, next((name for name in left if is_first or name == "response_format"), None))
 
 
 def _format_content(message: Message) -> Any:
@@ -181,11 +162,11 @@ class Reply:
         return self.finish == "length"
 
 
+@dataclass(frozen=True, slots=True)
 class AnswerCache:
     """A folder of answers: `answers/DIGEST.json` holds what was sent and what came back, `pictures/` the pictures."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    folder: Path
 
     def read(self, question: VlmQuestion, endpoint: Endpoint) -> Reply | None:
         """Return the answer to a question, None where there is none, or none that can be read."""

@@ -99,8 +99,8 @@ class LabelingCanvas:
         share = 0.0265 if count <= 45 else 0.0225 if count <= 90 else 0.019
         heights = [max(11, round(part * share * self.size)) for part in (1.0, 0.8)]
         return {
-            k: {high: (text_width(str(k), high) + 0.5 * high, 1.1 * high) for high in heights}
-            for k in self.subject.wanted
+            k: {high: (text_width(str(number), high) + 0.5 * high, 1.1 * high) for high in heights}
+            for k, number in self.subject.wanted.items()
         }
 
     def _trace_ink(self, hits: RayHits, steps: Any = None) -> LineStrengths:
@@ -141,7 +141,7 @@ class LabelingCanvas:
             column, row = points.mean(axis=0).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
         places = place_numbers(items, self._number_sizes, known)
-        texts = {k: str(k) for k in self.subject.wanted}
+        texts = {k: str(number) for k, number in self.subject.wanted.items()}
         draw_texts(draw, places, texts, self.subject.colors, (0, head_height(self.size)))
         return sorted(place.item for place in places)
 

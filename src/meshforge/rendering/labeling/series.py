@@ -37,7 +37,8 @@ _FEW = 0.85  # what a picture of some hulls only is worth beside one of all in p
 def draw_labeling_pictures(
     mesh: SymbolicMesh, *, hulls: Collection[str] | None = None, most: int = 6, size: int = 1024, up: Up | None = None
 ) -> tuple[LabelingPicture, ...]:
-    """Draw views chosen so that each of `hulls`, by default all, is seen and numbered in at least one, by its index.
+    """Draw views chosen so that each of `hulls`, by default all, is seen and numbered in at least one: by the number
+    that a mapping gives it, else by its index.
 
     At most `most` of them show the mesh as it is, the most telling first. Hulls that none of these shows are shown
     from close up, or alone among faint others, in further ones. Hulls beside `hulls` are pale and have no number. All
@@ -47,9 +48,11 @@ def draw_labeling_pictures(
     Raises UsageError for hulls that are not there, and for an impossible number or size of pictures.
     """
     names = mesh.index
-    picked = set(names if hulls is None else hulls)
+    picked = names if hulls is None else hulls
     _check_arguments(names, picked, most, size)
-    subject = LabelingSubject(mesh, tuple(k for name, k in names.items() if name in picked), up_axis(mesh, up))
+    numbers = picked if isinstance(picked, Mapping) else names
+    wanted = {k: numbers[name] for name, k in names.items() if name in set(picked)}
+    subject = LabelingSubject(mesh, wanted, up_axis(mesh, up))
     return tuple(_PictureSeries(LabelingCanvas(subject, size)).run(most)) if picked else ()
 
 

@@ -47,10 +47,10 @@ _HULLS_NAMED = 6  # hulls that a name lists one by one
 
 @dataclass(frozen=True, eq=False)
 class LabelingSubject:
-    """A mesh, the hulls (indices) that pictures are to show and number, and the axis that points up."""
+    """A mesh, the hulls (indices) that pictures are to show, with their numbers, and the axis that points up."""
 
     mesh: SymbolicMesh
-    wanted: tuple[int, ...]
+    wanted: Mapping[int, int]
     up: Up
 
     @cached_property
@@ -125,8 +125,13 @@ class Arrangement:
         """Return what a picture from there shows, in words."""
         words = VIEW_WORDS[view]
         if len(self.solid) < len(self.subject.render_meshes):
-            return f"{_list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
-        return f"{words}, close up of {_list_hulls(self.close)}" if self.close else words
+            return f"{self._list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
+        return f"{words}, close up of {self._list_hulls(self.close)}" if self.close else words
+
+    def _list_hulls(self, hulls: tuple[int, ...]) -> str:
+        texts = [str(self.subject.wanted.get(k, k)) for k in hulls[:_HULLS_NAMED]]
+        more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
+        return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"
 
     @cached_property
     def view_frame(self) -> ViewFrame:
@@ -188,9 +193,3 @@ class Arrangement:
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
         faint = [subject.render_meshes[k] for k in near_by] + subject.non_convex
         return prepare_for_rays(self._build_scene(faint), None)
-
-
-def _list_hulls(hulls: tuple[int, ...]) -> str:
-    texts = [str(k) for k in hulls[:_HULLS_NAMED]]
-    more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
-    return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"

@@ -216,8 +216,8 @@ def start_ask(session: Session, request: AskJob) -> Job:
 
 
 def _check_settings(session: Session, request: ForecastJob | AskJob) -> VlmSettings:
-    """The settings of the project with the mode asked for, checked before anything long starts."""
-    settings = session.project.settings.vlm.model_copy(update={"mode": request.mode})
+    """The settings of the project with what is asked about, checked before anything long starts."""
+    settings = session.project.settings.vlm.model_copy(update={"every_hull": request.every_hull})
     check_vlm_settings(settings, session.project.vocabulary)
     return settings
 

@@ -208,4 +208,4 @@ def model_of(project: Project) -> Model | None:
         why = error.message
     if find_spec("openai") is None:
         why = "This needs the extra: pip install 'meshforge[vlm]'"
-    return Model(name=settings.model, host=host, mode=settings.mode, max_cost=settings.max_cost, why=why)
+    return Model(name=settings.model, host=host, every_hull=settings.every_hull, max_cost=settings.max_cost, why=why)

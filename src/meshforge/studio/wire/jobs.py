@@ -11,9 +11,6 @@ JobKind = Literal[
     "read", "apply", "decompose", "rebuild", "export", "add", "propagate", "forecast", "ask", "check", "download"
 ]
 
-VlmMode = Literal["cheap", "balanced", "exact"]
-"""How many pictures and questions a model gets for each hull."""
-
 LabelEditKind = Literal["propagate", "label-files", "label-names", "label-vlm"]
 
 
@@ -87,17 +84,18 @@ class PropagateJob(Wire):
 
 
 class ForecastJob(Wire):
-    """Work out what asking a model for labels would send and cost, without sending anything."""
+    """Work out what asking a model for labels would send and cost, without sending anything. every_hull: whether it is
+    asked about every hull, or about exemplars of which labels are propagated."""
 
     kind: Literal["forecast"] = "forecast"
-    mode: VlmMode
+    every_hull: bool
 
 
 class AskJob(Wire):
     """Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there."""
 
     kind: Literal["ask"] = "ask"
-    mode: VlmMode
+    every_hull: bool
     max_cost: float | None = None
 
 
@@ -138,11 +136,11 @@ class LabelUpdate(Wire):
 
 
 class Model(Wire):
-    """The model that can be asked for labels. mode, max_cost: as set in meshforge.toml; why: the reason that it cannot
-    be asked, null where it can."""
+    """The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
+    cannot be asked, null where it can."""
 
     name: str
     host: str
-    mode: VlmMode
+    every_hull: bool
     max_cost: float | None = None
     why: str | None = None

@@ -9,11 +9,8 @@ import pytest
 
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint
-from meshforge.labels.vlm.mesh_asker import MeshAsker, OpenAnswers
-from meshforge.labels.vlm.prompt import build_questions
 from meshforge.labels.vlm.question import Message, VlmQuestion
 from meshforge.store import VlmSettings
-from meshforge.symbolic import SymbolicMesh
 from tests.loopback import KEY, Server
 
 VARIABLE = "MESHFORGE_TEST_API_KEY"
@@ -40,11 +37,6 @@ def endpoint(address: str, key: str | None = "") -> Endpoint:
 
 def question(text: str = "Say a word.", *pictures: bytes, **how: Any) -> VlmQuestion:
     return VlmQuestion((Message.system("Be brief."), Message.user(text, *pictures)), **how)
-
-
-def begin(asker: MeshAsker, mesh: SymbolicMesh, name: str = "") -> OpenAnswers:
-    """Draw a mesh and ask about all its hulls."""
-    return asker.ask([*mesh.index], build_questions(mesh, [*mesh.index], asker.config, name))
 
 
 @pytest.fixture

@@ -172,18 +172,17 @@ function Running({ job, counted = true, stop, text, ...row }: Pick<SourceRowProp
 }
 
 const MODEL_TITLE = "From a model";
-const MODES = [
-  { value: "cheap", label: "Cheap", name: "One question about a whole asset" },
-  { value: "balanced", label: "Balanced", name: "Two questions about each dozen hulls" },
-  { value: "exact", label: "Exact", name: "One question about each view of every five hulls" },
+const SCOPES = [
+  { value: "exemplars", label: "Exemplars", name: "A few questions about hulls that all others are like" },
+  { value: "every", label: "Every hull", name: "One question about each asset" },
 ] as const;
-type Mode = Model["mode"];
+type Scope = (typeof SCOPES)[number]["value"];
 
-/** What is chosen, and the forecast that was asked for: it is of its mode and its vocabulary only. */
+/** What is chosen, and the forecast that was asked for: it is of its scope and its vocabulary only. */
 interface Chosen {
-  mode: Mode;
+  scope: Scope;
   limit: string;
-  forecast: { job: string; mode: Mode; vocabulary: string } | null;
+  forecast: { job: string; scope: Scope; vocabulary: string } | null;
 }
 
 /** model: the one that the project's settings name. */
@@ -191,7 +190,7 @@ function FromModel({ model }: { model: Model | null }) {
   const asking = useJob("ask");
   const counting = useJob("forecast");
   const limit = model?.max_cost?.toString() ?? "";
-  const [chosen, setChosen] = useState<Chosen>({ mode: model?.mode ?? "balanced", limit, forecast: null });
+  const [chosen, setChosen] = useState<Chosen>({ scope: model?.every_hull ? "every" : "exemplars", limit, forecast: null });
   const job = [asking, counting].find((one) => one?.state === "running");
   if (job) return <Running icon={Eye} title={MODEL_TITLE} job={job} stop={job.kind === "ask" ? "Stop asking" : "Stop counting"} text={`${job.title}: ${job.done} of ${job.total}`} />;
   if (!model) return <SourceRow icon={Eye} title={MODEL_TITLE} text="Set a model under [vlm] in meshforge.toml" action={null} />;
@@ -206,20 +205,20 @@ interface ModelReadyProps {
 }
 
 function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
-  const { mode, limit, forecast } = chosen;
+  const { scope, limit, forecast } = chosen;
   const vocabulary = useProject((state) => state.project.vocabulary.join("\n"));
   const forecastJob = useProject((state) => state.jobs.find((job) => job.id === forecast?.job) ?? null);
-  const isFor = forecast?.mode === mode && forecast.vocabulary === vocabulary;
+  const isFor = forecast?.scope === scope && forecast.vocabulary === vocabulary;
   const isKnown = isFor && forecastJob?.state === "done";
   const most = limit.trim() === "" ? null : Number(limit);
   const isLimit = most === null || (Number.isFinite(most) && most >= 0);
 
   async function count() {
-    const job = await forecastModel(mode);
-    if (job) choose({ forecast: { job, mode, vocabulary } });
+    const job = await forecastModel(scope === "every");
+    if (job) choose({ forecast: { job, scope, vocabulary } });
   }
   async function ask() {
-    if (await askModel(mode, most)) choose({ forecast: null });
+    if (await askModel(scope === "every", most)) choose({ forecast: null });
   }
   const action = isKnown ? (
     <Button look="primary" disabled={!isLimit} onClick={() => void ask()} aria-label={`Ask ${model.name}`}>
@@ -239,7 +238,7 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
     <SourceRow icon={Eye} title={MODEL_TITLE} text={model.why ?? `${model.name} at ${model.host}`} action={action}>
       {model.why === null && (
         <div className={css.model}>
-          <Choice name="How much is asked" value={mode} options={MODES} onChange={(next) => choose({ mode: next })} />
+          <Choice name="How much is asked" value={scope} options={SCOPES} onChange={(next) => choose({ scope: next })} />
           <label className={css.limit}>
             at most $
             <input
