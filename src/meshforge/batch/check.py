@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -21,7 +21,7 @@ from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, EngineLoad, Examination, FixResult, draw_examination, examine_mesh, fix
-from meshforge.checks.engine_load import Given
+from meshforge.checks.base import Given
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path, quote_path
 from meshforge.engines import find_engine
 from meshforge.formats import MujocoLoad, format_of, labels_beside, load, output_path_of, save, try_in_mujoco
@@ -68,10 +68,7 @@ class CheckOutcome:
 
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
-        rows = [
-            {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
-            for f in (self.examination.findings if self.examination else ())
-        ]
+        rows = [asdict(found) for found in (self.examination.findings if self.examination else ())]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
         if self.fix_result:
             line["fixed"] = {"out": str(self.output)} | self.fix_result.to_json()

@@ -6,9 +6,8 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "base": "Check CheckFindings CheckSubject Measure",
+        "base": "Check EngineLoad CheckFindings CheckSubject Measure",
         "clearance": "OF_EDIT Clearance measure_kept_space",
-        "engine_load": "EngineLoad",
         "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
         "physics.simulation": "BEFORE Physics",

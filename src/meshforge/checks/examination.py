@@ -9,9 +9,8 @@ from functools import partial
 from inspect import isabstract
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from meshforge.checks.base import Check, CheckFindings, CheckSubject, Measure, MeasureCheck
+from meshforge.checks.base import Check, CheckFindings, CheckSubject, EngineLoad, Measure, MeasureCheck
 from meshforge.checks.clearance import ClearanceCheck
-from meshforge.checks.engine_load import EngineLoad
 from meshforge.checks.fit import FitCheck
 from meshforge.checks.legality import check_legality
 from meshforge.checks.physics.simulation import PhysicsCheck
