@@ -5,7 +5,6 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "limits": "Engine Finding Limit Severity check_limits make_limit",
-        "table": "ENGINES find_engine note_limits",
+        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits",
     },
 )

@@ -14,9 +14,8 @@ from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, ReviewState
 from meshforge.signoff.family import FamilyRun
-from meshforge.signoff.groups import ask_clusters, ask_groups
+from meshforge.signoff.groups import ask_clusters, ask_groups, ask_orientation
 from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
-from meshforge.signoff.orientation import ask_orientation
 from meshforge.signoff.program_run import CandidateSplit, ProgramRun, split_candidates
 from meshforge.signoff.question import (
     CANDIDATE,

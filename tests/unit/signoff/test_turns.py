@@ -11,7 +11,7 @@ import pytest
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
 from meshforge.signoff import ReviewState, review_family
-from meshforge.signoff.orientation import find_turned_asset
+from meshforge.signoff.groups import find_turned_asset
 from meshforge.signoff.question import NO, NOT_OF_FAMILY, YES
 from meshforge.symbolic import Asset, Document, SymbolicMesh
 from meshforge.synthesis import Demonstration, OrientationSuggestion, Step, synthesize
