@@ -31,7 +31,8 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
 def test_hello_tells_everything(studio: Studio) -> None:
     hello = studio.settled()
     assert [card["asset"] for card in hello["cards"]] == [f"table_{k:02}.obj" for k in range(1, 15)]
-    assert hello["project"]["vocabulary"][0] == {"name": "panel", "text": "panel", "color": "#E69F00"}
+    panel = {"name": "panel", "text": "panel", "color": "#E69F00", "is_class": False}
+    assert hello["project"]["vocabulary"][0] == panel
     assert hello["project"]["rules"][0]["action"]["text"] == "Delete"
     assert len(hello["language"]["actions"]) == 6
     assert hello["outcome"]["status"] == "found"

@@ -53,6 +53,7 @@ def _mark(person: Hand, asset: str, text: str) -> Locator:
 
 def _is_told_why_not(person: Hand) -> None:
     """There is nothing to carry over yet, and the page says what is missing."""
+    person.press("Alt+1")
     assert person.button("Propagate labels").is_disabled()
     person.sees("Type the names of the labels first.")
     person.click(person.page.get_by_label("New labels, separated by commas"))

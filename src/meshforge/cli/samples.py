@@ -34,4 +34,4 @@ def samples(
     written = write_family(wanted, folder)
     done = f"wrote {pluralize(written, 'file')}" if written else "all files are there already"
     typer.echo(f"{folder}: {wanted.about}; {done}")
-    typer.echo(format_first(wanted.name, folder.absolute() / wanted.pattern, wanted.vocabulary))
+    typer.echo(format_first(wanted.name, folder.absolute() / wanted.pattern))

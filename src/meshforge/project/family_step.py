@@ -68,14 +68,16 @@ def _usual(state: FamilyState) -> AssetStatus:
 
 
 def _take_offers(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
-    """Take labels that are there already, in files and names."""
+    """Take labels that are there already, in files, and in names while no hull has a label: later propagation hears
+    names, too."""
     if not bare:
         return None
     ids, offers = {asset.id for asset in bare}, state.find_offers()
     if files := ids.intersection(offers.files):
         text = f"Labels files lie beside {pluralize(len(files), 'asset')}: take their labels."
         return _step(state, "label-files", text, "label")
-    if named := sum(len(names) for asset, names in offers.names.items() if asset in ids):
+    named = sum(len(names) for asset, names in offers.names.items() if asset in ids)
+    if named and not any(asset.labelled for asset in state.assets):
         text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
         return _step(state, "label-names", text, "label")
     return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -60,9 +60,9 @@ def format_next(done: Done, folder: str | Path) -> str:
     return f"Next: meshforge {command} {quote_path(Path(folder))}{what}"
 
 
-def format_first(family: str, pattern: Path, vocabulary: Iterable[str]) -> str:
+def format_first(family: str, pattern: Path) -> str:
     """Return the line that names the command which makes a project of a bundled family."""
-    return f"Next: meshforge new {family} {quote_path(pattern)} --vocabulary {','.join(vocabulary)}"
+    return f"Next: meshforge new {family} {quote_path(pattern)}"
 
 
 def format_step(step: NextStep) -> str:

@@ -9,8 +9,6 @@ import numpy as np
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, convex_hull
 from meshforge.project import Project
-from tests.mesh_files import obj
-from tests.soups import merge_solids
 
 PARTS = ("seat", "leg", "leg", "leg", "leg")
 
@@ -73,7 +71,11 @@ def write_bare_stool(folder: Path, name: str) -> Path:
 
 
 def _write(folder: Path, name: str, solids: Sequence[Polytope]) -> str:
-    (folder / f"{name}.obj").write_bytes(obj(merge_solids(solids)))
+    lines, start = list[str](), 1
+    for solid in solids:
+        lines += _format_solid(solid, start)
+        start += len(solid.vertices)
+    (folder / f"{name}.obj").write_text("\n".join(lines) + "\n")
     return f"{name}.obj"
 
 
