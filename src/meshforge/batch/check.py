@@ -68,7 +68,8 @@ class CheckOutcome:
 
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
-        rows = [asdict(found) for found in (self.examination.findings if self.examination else ())]
+        found = self.examination.findings if self.examination else ()
+        rows = [{**asdict(finding), "hulls": list(finding.hulls)} for finding in found]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
         if self.fix_result:
             line["fixed"] = {"out": str(self.output)} | self.fix_result.to_json()
