@@ -17,7 +17,7 @@ from meshforge.language import Program, Template, select, to_canonical_frame
 from meshforge.project import Project, ProjectReview, run_with_manual_edits
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
-from meshforge.signoff import DemonstrationQuestion, ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff import ReviewQuestion, ReviewReply
 from meshforge.signoff.question import RIGHT
 from meshforge.synthesis import Step
 
@@ -73,7 +73,7 @@ class _Family:
         """ReviewReply as who knows what is meant; a result that is wrong is demonstrated instead."""
         asset, program = question.asset, self.project.program()
         assert program
-        if isinstance(question, DemonstrationQuestion):
+        if question.kind == "demonstrate":
             self.demonstrate(asset)
         elif question.rule is not None and all(choice.select is not None for choice in question.choices):
             mesh = self.project.mesh_before_rule(asset, question.rule, program)
@@ -81,7 +81,7 @@ class _Family:
             wanted = {mesh.hulls[place].name for place in places}
             right = [choice.id for choice in question.choices if set(choice.select or ()) == wanted]
             self.project.reply(question, ReviewReply(question.id, right[0] if right else None))
-        elif isinstance(question, ResultQuestion):
+        elif question.kind == "result":
             mesh = self.project.mesh(asset)
             done, wanted_trace = program.run(mesh, self.templates).trace, self.meant.run(mesh, self.templates).trace
             is_right = [set(one.selected) for one in done] == [set(one.selected) for one in wanted_trace]

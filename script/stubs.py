@@ -37,7 +37,8 @@ def list_stubs() -> Iterator[tuple[Path, str]]:
         offers = read_offers(tree, ".".join(path.relative_to(SOURCE).parts[:-1]))
         eager = [node for node in tree.body if isinstance(node, ast.ImportFrom) and _is_offered(node)]
         if offers:
-            yield path.with_suffix(".pyi"), _HEAD + "".join(map(_format_import, [*eager, *offers]))
+            head = _HEAD + "__version__: str\n__all__: list[str]\n" * (path.parent.parent == SOURCE)
+            yield path.with_suffix(".pyi"), head + "".join(map(_format_import, [*eager, *offers]))
 
 
 def _is_offered(node: ast.ImportFrom) -> bool:

@@ -16,9 +16,9 @@ from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
+from meshforge.synthesis.demonstration import LabelFix
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.search.smallest import Hit
 

@@ -16,9 +16,8 @@ from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh, descriptors
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelFix
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.repair.explain import FixSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 

@@ -27,7 +27,7 @@ from meshforge.common import write_atomically
 from meshforge.geometry import Floats
 from meshforge.label_model import model_family
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import confidence
+from meshforge.signoff import assessment
 from meshforge.signoff.family import FamilyRun
 from meshforge.synthesis import Ambiguous, Found
 
@@ -75,7 +75,7 @@ class _Observer(Client):
         return status
 
     def _list_rows(self, found: ProjectReview, outcome: Found | Ambiguous) -> Iterator[list[float]]:
-        state, known = found.state, confidence.read_calibration()
+        state, known = found.state, assessment.read_calibration()
         family = model_family(list(state.meshes.values()))
         said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
         posterior = family.infer(said, state.frame.labels)
@@ -119,11 +119,11 @@ def fit(folders: Sequence[Path], tell: Tell) -> None:
     threshold = choose_threshold([np.mean(some, axis=0) for some in losses.values()])
     weights = fit_weights([looks for _, looks in sessions])
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER ...`"}
-    names = zip(confidence.WEIGHTS, weights, strict=False)
-    data["weights"] = {name: round(float(one), 3) for name, one in names} | confidence.BY_HAND
+    names = zip(assessment.WEIGHTS, weights, strict=False)
+    data["weights"] = {name: round(float(one), 3) for name, one in names} | assessment.BY_HAND
     data |= {"program": round(float(weights[-2]), 3), "result": round(float(weights[-1]), 3)}
     data |= {"threshold": threshold, "families": len(losses), "risk": RISK}
-    write_atomically(Path(confidence.__file__).parent / confidence.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
+    write_atomically(Path(assessment.__file__).parent / assessment.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
     tell(str(data))
 
 
@@ -173,7 +173,7 @@ def _rate(weights: Floats, looks: Sequence[Look]) -> list[Floats]:
 def _predict(weights: Floats, rows: Floats) -> Floats:
     """The probability that each edit is right (rows,)."""
     trust = weights[-2] + weights[-1] * rows[:, _FEATURES] - rows[:, _FEATURES + 1]
-    found: Floats = confidence.combine(rows[:, :_FEATURES], weights[:-2]) / (1 + np.exp(-trust))
+    found: Floats = assessment.combine(rows[:, :_FEATURES], weights[:-2]) / (1 + np.exp(-trust))
     return found
 
 

@@ -22,7 +22,7 @@ from benchmark.study.project import name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.project import Project
-from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff import ReviewQuestion, ReviewReply
 from meshforge.signoff.question import WRONG
 from meshforge.synthesis import Nearest
 
@@ -168,7 +168,7 @@ class ReviewCourse:
         else:
             output = self.client.read_output(question.asset)
             reply = self.reviewer.reply(question, self.desk, self.client.program, output)
-            if isinstance(question, ResultQuestion) and reply.choice == WRONG:
+            if question.kind == "result" and reply.choice == WRONG:
                 self._correct(question, reply, output)
             else:
                 self._reply(question, reply)

@@ -14,12 +14,7 @@ from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
 from meshforge.signoff import (
-    CandidateQuestion,
-    GroupQuestion,
     HullPlace,
-    MistakeQuestion,
-    OrientationQuestion,
-    ResultQuestion,
     ReviewQuestion,
     ReviewReply,
 )
@@ -43,14 +38,14 @@ class Reviewer:
         self, question: ReviewQuestion, desk: Desk, program: Program | None, output: Output | None
     ) -> ReviewReply:
         """What they say to a question that needs no demonstration; output: of the asset that it is about."""
-        match question:
-            case GroupQuestion():
+        match question.kind:
+            case "group":
                 return self._name_group(question)
-            case CandidateQuestion():
+            case "candidate" | "label":
                 return self._pick(question, desk, program)
-            case MistakeQuestion():
+            case "selection":
                 return self._check_selection(question)
-            case ResultQuestion():
+            case "result":
                 return self._look(question, output)
             case _:
                 return self._confirm(question)
@@ -90,7 +85,7 @@ class Reviewer:
 
     def _confirm(self, question: ReviewQuestion) -> ReviewReply:
         """The label of one hull; an orientation is theirs already, so that another one is declined."""
-        if isinstance(question, OrientationQuestion):
+        if question.kind == "orientation":
             self.ledger.add(question.kind, CONFIRMATION)
             return ReviewReply(question.id, self._slip(question, [one.id for one in question.choices].index(NO)))
         labels = [choice.label for choice in question.choices]
@@ -105,7 +100,7 @@ class Reviewer:
         place = self.person.slips_from(right, len(question.choices))
         return None if place is None else question.choices[place].id
 
-    def _look(self, question: ResultQuestion, output: Output | None) -> ReviewReply:
+    def _look(self, question: ReviewQuestion, output: Output | None) -> ReviewReply:
         """Whether a result is right; set aside what nobody could show."""
         there = question.choice(RIGHT) is not None  # else the program cannot run, or it was called wrong before
         right = (self.judge.looks_right(question.asset, output) != self.person.errs_now()) and there

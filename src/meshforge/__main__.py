@@ -1,7 +1,5 @@
 """`python -m meshforge`: the command line, which as `meshforge` imports nothing from the folder it is called in."""
 
-from __future__ import annotations
-
 import sys
 from os import path
 

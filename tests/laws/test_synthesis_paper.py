@@ -10,11 +10,10 @@ from hypothesis import strategies as st
 
 from meshforge.language import Extractor, labels_of, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh, bits_of
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelFix
 from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import ExampleMasks
 from meshforge.synthesis.paper.search import Abduction, HitWithFixes, PaperSearch
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes

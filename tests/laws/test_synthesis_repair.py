@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, HullTable, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelFix
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
 from meshforge.synthesis.search.observation_table import select_all

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from meshforge.batch import IN_PROCESS
-from meshforge.batch import status_of as word
 from meshforge.formats import load
 from meshforge.geometry import Floats, is_convex
 from meshforge.geometry.decomposition.engines import VhacdSettings
@@ -111,7 +110,7 @@ def test_a_stool_that_is_only_there_to_be_seen_gets_hulls_and_is_edited(tmp_path
     project.demonstrate("chair_stool.gltf", [Step(1, {top}, Replace("box"))])
     project.synthesize()
     (outcome,) = project.apply(execution=IN_PROCESS)
-    assert word(outcome) == "edited"
+    assert outcome.status == "edited"
     after = load(project.folder / "edited/chair_stool.gltf")
     assert {hull.label for hull in after.hulls} == {"seat", "leg"} and len(after.hulls) == len(mesh.hulls)
 
@@ -131,7 +130,7 @@ def test_bodies_of_an_mjcf_that_only_show_something_get_hulls_and_keep_their_mas
     project.demonstrate("lightButtons.xml", [Step(1, set(done.hulls), Each(Merge()))])
     project.synthesize()
     (outcome,) = project.apply(execution=IN_PROCESS)
-    assert word(outcome) == "edited"
+    assert outcome.status == "edited"
     edited = project.folder / "edited" / "lightButtons.xml"
     path = edited if edited.is_file() else next((project.folder / "edited").rglob("lightButtons.xml"))
     old, new = (mujoco.MjModel.from_xml_path(str(p)) for p in (source, path))

@@ -19,7 +19,7 @@ from unittest.mock import patch
 import pytest
 
 from meshforge.cli import main
-from meshforge.cli.review_pictures import draw_question
+from meshforge.cli.review_session import draw_question
 from meshforge.formats import load
 from meshforge.samples import TABLES
 from tests.loop.mistaken_tables import create_project, reply_to

@@ -1051,13 +1051,11 @@ export interface HistoryState {
   redoable: number;
 }
 /**
- * What the last edit did, if it changed the labels of all assets. way: its kind; newly_sure: how many
- * labels it made sure.
+ * What the last edit did, if it changed the labels of all assets. way: its kind.
  */
 export interface LabelUpdate {
   way: "propagate" | "label-files" | "label-names" | "label-vlm";
   assets: AssetLabelUpdate[];
-  newly_sure: number;
 }
 /**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;

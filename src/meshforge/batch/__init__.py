@@ -1,20 +1,17 @@
 """Work on many assets: which they are, preparations, programs and checks run in worker processes, outcomes, outputs
 in place, and the report."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "check": "CheckOutcome CheckTask check_asset check_assets",
+        "check": "ENGINES_TO_ASK CheckOutcome CheckTask check_asset check_assets examine_file",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
         ),
         "discovery": "ADDED OWN_FOLDERS SETTINGS STATE AssetSet asset_id expand find_assets_in",
         "edit": "apply",
-        "engine_load": "ENGINES_TO_ASK examine_file",
         "execution": "execute",
         "jobs": (
             "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
@@ -22,8 +19,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "lock": "hold_lock",
         "outcome": (
-            "MOST_SHOWN AssetOutcome Failed NeedsReview RuleEffect RunSummary Skipped describe_alarms status_of "
-            "to_json_line"
+            "MOST_SHOWN AssetOutcome Failed NeedsReview RuleEffect RunSummary Skipped describe_alarms to_json_line"
         ),
         "preparation.cut": "HullParts cut_hull replace_hulls",
         "preparation.decompose": "Concave DecompositionResult decompose_asset replace_concave",

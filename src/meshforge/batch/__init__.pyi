@@ -1,8 +1,10 @@
 # Written by `python -m script.stubs`.
+from meshforge.batch.check import ENGINES_TO_ASK as ENGINES_TO_ASK
 from meshforge.batch.check import CheckOutcome as CheckOutcome
 from meshforge.batch.check import CheckTask as CheckTask
 from meshforge.batch.check import check_asset as check_asset
 from meshforge.batch.check import check_assets as check_assets
+from meshforge.batch.check import examine_file as examine_file
 from meshforge.batch.manual_edits import ManualEdit as ManualEdit
 from meshforge.batch.manual_edits import RuleSelection as RuleSelection
 from meshforge.batch.manual_edits import action_text as action_text
@@ -18,8 +20,6 @@ from meshforge.batch.discovery import asset_id as asset_id
 from meshforge.batch.discovery import expand as expand
 from meshforge.batch.discovery import find_assets_in as find_assets_in
 from meshforge.batch.edit import apply as apply
-from meshforge.batch.engine_load import ENGINES_TO_ASK as ENGINES_TO_ASK
-from meshforge.batch.engine_load import examine_file as examine_file
 from meshforge.batch.execution import execute as execute
 from meshforge.batch.jobs import APPLY_DEFAULTS as APPLY_DEFAULTS
 from meshforge.batch.jobs import ApplyOptions as ApplyOptions
@@ -40,7 +40,6 @@ from meshforge.batch.outcome import RuleEffect as RuleEffect
 from meshforge.batch.outcome import RunSummary as RunSummary
 from meshforge.batch.outcome import Skipped as Skipped
 from meshforge.batch.outcome import describe_alarms as describe_alarms
-from meshforge.batch.outcome import status_of as status_of
 from meshforge.batch.outcome import to_json_line as to_json_line
 from meshforge.batch.preparation.cut import HullParts as HullParts
 from meshforge.batch.preparation.cut import cut_hull as cut_hull

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, assert_never
+from typing import Any, ClassVar, Literal
 
 from meshforge import language, signoff
 from meshforge.common import pluralize, suggest_match
@@ -58,21 +58,28 @@ class RunOutcome:
 class Edited(RunOutcome):
     """The program changed the hulls of the asset."""
 
+    status: ClassVar[StatusWord] = "edited"
+
 
 @dataclass(frozen=True, slots=True)
 class Unchanged(RunOutcome):
     """The program ran and changed nothing; the asset is written as it was."""
+
+    status: ClassVar[StatusWord] = "unchanged"
 
 
 @dataclass(frozen=True, slots=True)
 class Skipped(RunOutcome):
     """The output of an earlier run is up to date; rules, counts and notes are those of that run."""
 
+    status: ClassVar[StatusWord] = "skipped"
+
 
 @dataclass(frozen=True, slots=True)
 class Failed:
     """The asset was not written; error: the whole message."""
 
+    status: ClassVar[StatusWord] = "failed"
     asset: str
     error: str
     seconds: float
@@ -110,21 +117,6 @@ class NeedsReview:
         }
 
 
-def status_of(outcome: AssetOutcome) -> StatusWord:
-    """Return the word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
-    match outcome:
-        case Edited():
-            return "edited"
-        case Unchanged():
-            return "unchanged"
-        case Skipped():
-            return "skipped"
-        case Failed():
-            return "failed"
-        case _:
-            assert_never(outcome)
-
-
 def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> dict[str, Any]:
     """Return the line of `apply --json` for an outcome; what a failed asset has not is null or empty.
 
@@ -133,7 +125,7 @@ def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> 
     ran = None if isinstance(outcome, Failed) else outcome
     return {
         "asset": outcome.asset,
-        "status": status_of(outcome),
+        "status": outcome.status,
         "out": ran.out if ran else None,
         "error": outcome.error if isinstance(outcome, Failed) else None,
         "rules": [
@@ -166,7 +158,7 @@ class RunSummary:
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
-        self.counts[status_of(outcome)] += 1
+        self.counts[outcome.status] += 1
         if isinstance(outcome, Failed):
             if len(self.failed) < MOST_SHOWN:
                 self.failed.append(outcome)

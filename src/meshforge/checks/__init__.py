@@ -1,20 +1,16 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
-from __future__ import annotations
-
 from meshforge.checks.fix import FixResult, fix
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "base": "Check CheckFindings CheckSubject Measure",
+        "base": "Check EngineLoad CheckFindings CheckSubject Measure",
         "clearance": "OF_EDIT Clearance measure_kept_space",
-        "engine_load": "EngineLoad",
-        "examination": "CheckOptions Examination check draw_examination examine_mesh",
+        "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
         "physics.simulation": "BEFORE Physics",
-        "registry": "CHECKS MEASURES",
         "meshforge.engines": "Finding Severity",
     },
 )

@@ -2,13 +2,15 @@
 from meshforge.checks.fix import FixResult as FixResult
 from meshforge.checks.fix import fix as fix
 from meshforge.checks.base import Check as Check
+from meshforge.checks.base import EngineLoad as EngineLoad
 from meshforge.checks.base import CheckFindings as CheckFindings
 from meshforge.checks.base import CheckSubject as CheckSubject
 from meshforge.checks.base import Measure as Measure
 from meshforge.checks.clearance import OF_EDIT as OF_EDIT
 from meshforge.checks.clearance import Clearance as Clearance
 from meshforge.checks.clearance import measure_kept_space as measure_kept_space
-from meshforge.checks.engine_load import EngineLoad as EngineLoad
+from meshforge.checks.examination import CHECKS as CHECKS
+from meshforge.checks.examination import MEASURES as MEASURES
 from meshforge.checks.examination import CheckOptions as CheckOptions
 from meshforge.checks.examination import Examination as Examination
 from meshforge.checks.examination import check as check
@@ -17,7 +19,5 @@ from meshforge.checks.examination import examine_mesh as examine_mesh
 from meshforge.checks.fit import MeshFit as MeshFit
 from meshforge.checks.physics.simulation import BEFORE as BEFORE
 from meshforge.checks.physics.simulation import Physics as Physics
-from meshforge.checks.registry import CHECKS as CHECKS
-from meshforge.checks.registry import MEASURES as MEASURES
 from meshforge.engines import Finding as Finding
 from meshforge.engines import Severity as Severity

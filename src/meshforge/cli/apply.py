@@ -120,7 +120,7 @@ def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:
         return describe_failure(outcome)
     rules = (f"rule {effect.rule}: {effect.note}" for effect in outcome.rules if effect.note)
     hulls = f"{outcome.before} -> {pluralize(outcome.after, 'hull')}"
-    line = f"{batch.status_of(outcome):10} {escape_name(outcome.asset)}: {hulls}"
+    line = f"{outcome.status:10} {escape_name(outcome.asset)}: {hulls}"
     return log.describe(outcome.asset, line, (*rules, *outcome.notes, *outcome.flags))
 
 

@@ -16,7 +16,7 @@ from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError
+from meshforge.common import UsageError, quote_path
 from meshforge.project import Project, add_result_status, format_status
 from meshforge.samples import TABLES, family_of, write_family
 
@@ -100,14 +100,9 @@ def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Projec
     if len(edited) < len(assets):
         typer.echo(f"{len(assets) - len(edited)} failed; the report says why.")
     typer.echo(sure.replace("\n", "\n  "))
-    typer.echo(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
-    typer.echo(f"Before, after, and what each rule did: {_relative_path(report)}")
-    typer.echo(f"How sure each result is, and questions about it: meshforge review {_relative_path(project.folder)}")
-
-
-def _relative_path(path: Path) -> Path:
-    path, here = path.absolute(), Path.cwd()
-    return path.relative_to(here) if path.is_relative_to(here) else path
+    typer.echo(f"Edited tables, each in the file format it came in: {quote_path(project.folder / 'edited')}")
+    typer.echo(f"Before, after, and what each rule did: {quote_path(report)}")
+    typer.echo(f"How sure each result is, and questions about it: meshforge review {quote_path(project.folder)}")
 
 
 def create_tables(out: Path) -> Project:

@@ -13,8 +13,7 @@ import typer
 
 from meshforge.cli import options
 from meshforge.cli.review_answers import format_question, format_reply_help, read_replies
-from meshforge.cli.review_pictures import draw_question
-from meshforge.cli.review_session import ReviewSession
+from meshforge.cli.review_session import ReviewSession, draw_question
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.project import Project, ProjectReview, format_next, format_review

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.common import UsageError, join_names, pluralize
-from meshforge.signoff import Assessment, HullPlace, ResultQuestion, ReviewQuestion, ReviewReply, ReviewState
+from meshforge.signoff import Assessment, HullPlace, ReviewQuestion, ReviewReply, ReviewState
 from meshforge.signoff.question import NO
 from meshforge.symbolic import HUMAN_SOURCES
 
@@ -44,7 +44,7 @@ def format_prompt(question: ReviewQuestion) -> str:
         return "l later, q stop: "
     numbers = ", ".join(map(str, range(1, count + 1)))
     but = " (what is something else after it: 1 b=LABEL)" if len(question.hulls) > 1 else ""
-    if isinstance(question, ResultQuestion):
+    if question.kind == "result":
         but = " (what is right after it: 2 RULE:HULL,HULL HULL=LABEL)"
     none = "" if question.choice(NO) else ", n for none"
     return f"{numbers}{but}{none}, l later, q stop; Enter: 1: "
@@ -160,7 +160,7 @@ def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
     chosen = (
         _parse_choice(words.pop(0), question) if words and not set(words[0]) & set("=:") else question.choices[0].id
     )
-    if isinstance(question, ResultQuestion):
+    if question.kind == "result":
         return _parse_manual_edit(words, question, chosen)
     letters = {letter_of(place): hull for place, hull in enumerate(question.hulls)}
     exceptions = {}
@@ -188,7 +188,7 @@ def _parse_choice(word: str, question: ReviewQuestion) -> str | None:
     return ids[int(word) - 1]
 
 
-def _parse_manual_edit(words: Sequence[str], question: ResultQuestion, chosen: str | None) -> ReviewReply:
+def _parse_manual_edit(words: Sequence[str], question: ReviewQuestion, chosen: str | None) -> ReviewReply:
     selections, labels = dict[int, frozenset[str]](), dict[str, str]()
     for word in words:
         rule, colon, names = word.partition(":")

@@ -1,11 +1,16 @@
-"""Replies to the questions of a project one after the other, by a person at the terminal or from a file."""
+"""Replies to the questions of a project one after the other, by a person at the terminal or from a file; and the
+pictures of a question, in `.meshforge/review` of the project."""
 
 from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Sequence
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -18,12 +23,17 @@ from meshforge.cli.review_answers import (
     format_reply_help,
     parse_reply,
 )
-from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
-from meshforge.project import Project, ProjectReview, format_review
-from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply, question_of
-from meshforge.signoff.question import WRONG
+from meshforge.language import Orient, Program, to_canonical_frame
+from meshforge.project import Project, ProjectReview, format_review, run_with_manual_edits
+from meshforge.rendering import Up, draw_before_after, make_contact_sheet, render, write_png
+from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply, question_of
+from meshforge.signoff.question import RIGHT, WRONG
+from meshforge.symbolic import SymbolicMesh
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 _FEW_LISTED = 3  # assets that need review and are named beside a question
 
@@ -99,7 +109,7 @@ class ReviewSession:
         self._project.reply(question, reply)
         for sentence in find_contradictions(self.found.state, question, reply):
             remark(sentence)
-        if isinstance(question, ResultQuestion) and reply.choice == WRONG and not (reply.selections or reply.labels):
+        if question.kind == "result" and reply.choice == WRONG and not (reply.selections or reply.labels):
             word, asset = shlex.quote(str(self._project.folder)), shlex.quote(question.asset)
             show_it = f"meshforge demonstrate {word} {asset} 'HULLS => ACTION' ..."
             remark(f"{question.asset} needs review; to show what is meant there: {show_it}")
@@ -119,3 +129,67 @@ def _ask(question: ReviewQuestion) -> ReviewReply | None:
             return parse_reply(line, question)
         except UsageError as error:
             typer.echo(error.message)
+
+
+_SIZE, _SMALL_SIZE = (720, 560), (480, 374)
+
+
+def draw_question(project: Project, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
+    """Draw what a question is about: one picture of each choice, or one of all; those of the question before are taken
+    away. Return their paths, as one types them here; none where it cannot be drawn."""
+    folder = project.layout.review_pictures
+    shutil.rmtree(folder, ignore_errors=True)
+    with progress(None, "drawing"), suppress(MeshForgeError):
+        return [_write(folder / f"{name}.png", picture) for name, picture in _draw(project, found, question)]
+    return []
+
+
+def _write(path: Path, picture: Image) -> Path:
+    here = Path.cwd()
+    write_png(path, picture)
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def _draw(project: Project, found: ProjectReview, question: ReviewQuestion) -> Iterator[tuple[str, Image]]:
+    name, asset, meshes = question.id, question.asset, found.state.meshes
+    program, words = found.outcome.program if found.outcome else None, project.vocabulary
+    if question.hulls:
+        yield name, _draw_sheet(meshes, question.hulls)
+    elif asset not in meshes:
+        return
+    elif question.kind in ("candidate", "label") and program and question.rule:
+        mesh, up = project.mesh_before_rule(asset, question.rule, program, meshes), _up(project.orientation)
+        for number, choice in enumerate(question.choices, 1):
+            chosen, title = frozenset(choice.select or ()), f"choice {number}"
+            yield f"{name}-choice-{number}", render(mesh, highlight=chosen, size=_SIZE, title=title, up=up)
+    elif question.kind == "result" and program and question.choice(RIGHT):
+        yield name, _draw_result(project, asset, meshes[asset], program)
+    elif question.kind == "orientation":
+        for choice in question.choices:
+            orient = choice.orient or found.state.frame.orient
+            mesh, up = to_canonical_frame(meshes[asset], orient, project.settings.thresholds.contact)[0], _up(orient)
+            picture = render(mesh, color_by="label", size=_SIZE, title=choice.text, vocabulary=words, up=up)
+            yield f"{name}-{choice.id}", picture
+    else:
+        yield name, render(meshes[asset], color_by="label", size=_SIZE, title=asset, vocabulary=words)
+
+
+def _draw_sheet(meshes: Mapping[str, SymbolicMesh], hulls: tuple[HullPlace, ...]) -> Image:
+    """Hulls of several assets, each asset as it lies, on one sheet."""
+    chosen = {place.asset: frozenset(one.hull for one in hulls if one.asset == place.asset) for place in hulls}
+    return make_contact_sheet(
+        [render(meshes[asset], highlight=names, size=_SMALL_SIZE, title=asset) for asset, names in chosen.items()]
+    )
+
+
+def _draw_result(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> Image:
+    before, pose = to_canonical_frame(mesh, program.orient, program.contact)
+    after = run_with_manual_edits(project, asset, mesh, program).mesh
+    turned = after.with_hulls(hull.move(pose) for hull in after.hulls)
+    up = _up(program.orient)
+    return draw_before_after(before, turned, size=_SMALL_SIZE, vocabulary=project.vocabulary, up=up)
+
+
+def _up(orient: Orient | None) -> Up | None:
+    """Z where the orientation names it; otherwise the file says which axis is up."""
+    return "Z" if orient and orient.names_z else None

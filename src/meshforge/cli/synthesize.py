@@ -1,22 +1,25 @@
-"""`meshforge synthesize`: learn the program of a project from its demonstrations."""
+"""`meshforge synthesize`: learn the program of a project from its demonstrations; the result as text for stdout, and
+remarks on it for stderr."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import shlex
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, assert_never
 
 import typer
 
 from meshforge import synthesis
-from meshforge.cli import synthesize_text
 from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
-from meshforge.common import UsageError
+from meshforge.common import UsageError, join_names, pluralize
 from meshforge.labels import propose_class_names
-from meshforge.project import learn_program, select_assets
-from meshforge.store import MeshCache, Store
+from meshforge.language import show
+from meshforge.project import format_next, learn_program, select_assets
+from meshforge.store import MeshCache, Store, orientation_text, toml_value
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +74,7 @@ def synthesize(given: SynthesizeArguments) -> None:
         feedback = project.feedback()
         _print_outcome(
             outcome,
-            synthesize_text.LearningContext(
+            LearningContext(
                 given.project,
                 assets=len(project.assets()),
                 in_use=len(select_assets(project)),
@@ -86,8 +89,181 @@ def synthesize(given: SynthesizeArguments) -> None:
     raise typer.Exit(int(outcome.program is None))
 
 
-def _print_outcome(outcome: synthesis.LearningOutcome, about: synthesize_text.LearningContext) -> None:
-    typer.echo(synthesize_text.format_result(outcome, about))
-    more = synthesize_text.format_remarks(outcome, about)
+def _print_outcome(outcome: synthesis.LearningOutcome, about: LearningContext) -> None:
+    typer.echo(format_result(outcome, about))
+    more = format_remarks(outcome, about)
     if more:
         remark(f"\n{more}")
+
+
+_OVERRULED = "its result was accepted, which no program keeps that does what is demonstrated"
+
+
+@dataclass(frozen=True, slots=True)
+class LearningContext:
+    """What there is to say besides the outcome.
+
+    folder: of the project, as a person types it; assets, in_use, readable: how many there are, are learned from,
+    and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
+    stopped: whether a person ended the search; classes: of hulls that steps take, with the names proposed for them.
+    """
+
+    folder: Path
+    assets: int
+    in_use: int
+    readable: int
+    answers: int = 0
+    repairs: int = 0
+    kept: bool = True
+    stopped: bool = False
+    classes: Mapping[str, str | None] = field(default_factory=dict)
+
+    @property
+    def folder_word(self) -> str:
+        return shlex.quote(str(self.folder))
+
+
+def format_result(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
+    """Return the result: a program, or why there is none."""
+    match outcome:
+        case synthesis.Found() | synthesis.Ambiguous():
+            return str(outcome.program).rstrip("\n")
+        case synthesis.NeedsRepair():
+            return "\n".join(_describe_repairs(outcome, about))
+        case synthesis.NoProgram():
+            return "\n".join(_describe_failure(outcome))
+        case synthesis.TimedOut():
+            return "\n".join(_describe_timeout(outcome, about))
+        case _:
+            assert_never(outcome)
+
+
+def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
+    """Return how far the result can be trusted, and what to do next."""
+    lines = list(_describe_stale(outcome, about))
+    if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
+        took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
+        lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
+        lines += [*_describe_suggestion(outcome, "may be meant"), *_describe_agreement(outcome, about)]
+        lines += _describe_classes(about)
+        lines += [format_next("left open" if outcome.open_rule else "learned", about.folder)] if about.kept else []
+    return "\n".join(lines)
+
+
+def _describe_inputs(about: LearningContext) -> str:
+    parts = [pluralize(about.answers, "answer")] if about.answers else []
+    parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
+    return f" with {' and '.join(parts)}" if parts else ""
+
+
+def _describe_classes(about: LearningContext) -> Iterator[str]:
+    if not about.classes or not about.kept:
+        return
+    are = "is what a step takes" if len(about.classes) == 1 else "are what steps take"
+    yield f"{join_names([*about.classes], len(about.classes))} {are}, and what looks like it. Name parts when you like:"
+    given = (shlex.quote(f"{name}={word or 'NAME'}") for name, word in about.classes.items())
+    yield f"  meshforge label {about.folder_word} {' '.join(f'--rename {one}' for one in given)}"
+
+
+def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: LearningContext) -> Iterator[str]:
+    if outcome.unambiguous:
+        all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
+        part = "were looked at" if about.in_use < about.assets else "can be read"
+        seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
+        yield f"all believable readings of the rules agree on {seen}"
+    elif outcome.open_rule:
+        yield f"ambiguous: it is open what rule {outcome.open_rule.rule} does on {outcome.open_rule.asset}"
+    yield from _list_assets(outcome)
+    if outcome.hint and not outcome.unambiguous:
+        yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
+
+
+def _list_assets(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
+    """The assets to look at, each once, with all reasons; those of the same reasons in one line."""
+    rows = [(asset, _OVERRULED) for asset in outcome.overruled]
+    if not (outcome.unambiguous or outcome.open_rule):
+        rows += _list_doubtful(outcome)
+    if outcome.hint and not outcome.unambiguous:
+        rows.append((outcome.hint.asset, f"demonstrate it to be more certain: {outcome.hint.why}"))
+    reasons, lines = dict[str, list[str]](), dict[str, list[str]]()
+    for asset, why in rows:
+        reasons.setdefault(asset, []).append(why)
+    for asset in () if outcome.unambiguous or outcome.open_rule else outcome.sample:
+        reasons.setdefault(asset, ["best to see whether the program is right"])
+    for asset, own in reasons.items():
+        lines.setdefault("; ".join(own), []).append(asset)
+    yield from ["Look first at:"] * bool(lines)
+    yield from (f"  {join_names(assets)}: {why}" for why, assets in lines.items())
+
+
+def _list_doubtful(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[tuple[str, str]]:
+    """The assets on which a reading that is not likely enough to ask about would do something else, and what."""
+    rules = dict[str, set[int]]()
+    for candidate in outcome.candidates:
+        for asset in candidate.differs_on if candidate.belief >= synthesis.BELIEVABLE else ():
+            rules.setdefault(asset, set()).add(candidate.rule)
+    for asset, own in sorted(rules.items()):
+        yield asset, f"rule{'s' * (len(own) > 1)} {join_names([*map(str, sorted(own))])} might mean something else"
+
+
+def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) -> Iterator[str]:
+    for answer in outcome.stale:
+        question = f"{answer.rule}:{answer.asset}"
+        yield f"the answer {question} no longer fits what is there, and is left out"
+        yield f"  to take it back: meshforge review {about.folder_word} --forget {shlex.quote(question)}"
+
+
+def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:
+    yield f"no program found: {outcome.why}"
+    yield from (f"  learned: {rule}" for rule in outcome.rules)
+    yield from _describe_nearest(outcome.nearest)
+    yield from (f"- {line}" for line in outcome.advice)
+    if not outcome.advice:
+        yield "Look at the labels of these hulls (meshforge info), or at what was demonstrated there."
+    yield from _describe_suggestion(outcome, "would do")
+
+
+def _describe_suggestion(outcome: synthesis.LearningOutcome, how: str) -> Iterator[str]:
+    if outcome.suggested:
+        yield f"Another orientation {how}: {outcome.suggested.why}."
+        yield "  in meshforge.toml write: orient = " + toml_value(orientation_text(outcome.suggested.orient))
+
+
+def _describe_timeout(outcome: synthesis.TimedOut, about: LearningContext) -> Iterator[str]:
+    number = len(outcome.rules) + 1
+    if about.stopped:
+        yield f"stopped while rule {number} was searched for"
+    else:
+        yield f"the time ran out while rule {number} was searched for; --budget SECONDS gives more"
+    yield from (f"  learned: {rule}" for rule in outcome.rules)
+    yield from _describe_nearest(outcome.nearest) if outcome.nearest else ()
+
+
+def _describe_nearest(nearest: synthesis.Nearest) -> Iterator[str]:
+    yield f"nearest for rule {nearest.rule}: {show(nearest.extractor)}; on {nearest.asset} it"
+    if nearest.extra:
+        yield f"  selects too much: {', '.join(nearest.extra)}"
+    if nearest.missing:
+        yield f"  leaves out:       {', '.join(nearest.missing)}"
+
+
+def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) -> Iterator[str]:
+    yield f"no program yet: {pluralize(len(outcome.repairs), 'label')} may be wrong"
+    for repair in outcome.repairs:
+        yield f"  {describe_change(repair)}" + (f"  ({format_belief(repair)} sure)" if format_belief(repair) else "")
+        yield f"    {repair.why}"
+    if outcome.proposed:
+        yield "With that, the program is:"
+        yield from (f"  {rule}" for rule in outcome.proposed.rules)
+    yield format_next("left open", about.folder)
+
+
+def describe_change(repair: synthesis.Repair) -> str:
+    """Return `hull of asset: door -> handle`."""
+    wrong = repair.fix
+    return f"{wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
+
+
+def format_belief(repair: synthesis.Repair) -> str | None:
+    """Return how likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
+    return f"{min(round(100 * repair.belief), 99)} %" if repair.belief < 1 else None

@@ -1,13 +1,10 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "extras": "import_extra require_mujoco",
         "files": (
             "DISK_ERRORS FileState FileStates confine_reads do_at_once expand_glob file_digest file_state "
             "file_states find_drafts is_beyond_reach is_file is_link_cycle plain_path quote_path relative_name "
@@ -19,7 +16,10 @@ __getattr__, __all__ = export_lazily(
             "format_share is_text join_and join_names nearest_name pluralize suggest_among suggest_match "
             "suggest_name to_text"
         ),
-        "plugins": "PLUGIN_KINDS Plugin PluginKind Registry adopt_plugins blame collect_plugins find_plugins",
+        "plugins": (
+            "PLUGIN_KINDS Plugin PluginKind Registry adopt_plugins blame collect_plugins find_plugins import_extra "
+            "require_mujoco"
+        ),
         "validation": "describe_invalid_field first_validation_error",
     },
 )

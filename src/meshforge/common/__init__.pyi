@@ -1,6 +1,4 @@
 # Written by `python -m script.stubs`.
-from meshforge.common.extras import import_extra as import_extra
-from meshforge.common.extras import require_mujoco as require_mujoco
 from meshforge.common.files import DISK_ERRORS as DISK_ERRORS
 from meshforge.common.files import FileState as FileState
 from meshforge.common.files import FileStates as FileStates
@@ -52,5 +50,7 @@ from meshforge.common.plugins import adopt_plugins as adopt_plugins
 from meshforge.common.plugins import blame as blame
 from meshforge.common.plugins import collect_plugins as collect_plugins
 from meshforge.common.plugins import find_plugins as find_plugins
+from meshforge.common.plugins import import_extra as import_extra
+from meshforge.common.plugins import require_mujoco as require_mujoco
 from meshforge.common.validation import describe_invalid_field as describe_invalid_field
 from meshforge.common.validation import first_validation_error as first_validation_error

@@ -1,5 +1,5 @@
 """Plug-ins: what other packages add by entry points. They are found without loading them, loaded when first asked for,
-and named in every error that they cause."""
+and named in every error that they cause. Libraries that may be absent, too: extras, and MuJoCo."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
 from typing import Any, Generic, Literal, TypeVar, get_args
 
 from meshforge.common.messages import MeshForgeError, PluginError
@@ -231,3 +232,20 @@ def make_target(target: str) -> Any:
     """Return what the class or function `module:attribute` makes without arguments, always the same."""
     module, _, attribute = target.partition(":")
     return getattr(import_module(module), attribute)()
+
+
+def import_extra(library: str, extra: str, purpose: str) -> Any:
+    """Return an optional library. Raises MeshForgeError that names the extra to install; purpose: what needs it, a
+    subject."""
+    try:
+        return import_module(library)
+    except ImportError as error:
+        problem = f"{purpose} needs the package {library}, which cannot be imported ({error})"
+        raise MeshForgeError(problem, remedy=f"Install it: pip install 'meshforge[{extra}]'.") from error
+
+
+def require_mujoco(what: str, where: str | None = None) -> None:
+    """Raise MeshForgeError where MuJoCo, which `what` needs, is not installed; it is not loaded for that."""
+    if find_spec("mujoco") is None:
+        remedy = "Install it: pip install 'mujoco>=4.0'. It has no wheel for macOS on Intel: work on another machine."
+        raise MeshForgeError(f"{what} needs MuJoCo, which is not installed", where=where, remedy=remedy)

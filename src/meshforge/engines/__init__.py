@@ -1,13 +1,10 @@
 """Physics engines: what each takes of hulls, and what it makes of the rest."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "limits": "Engine Finding Limit Severity check_limits make_limit",
-        "table": "ENGINES find_engine note_limits",
+        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits",
     },
 )

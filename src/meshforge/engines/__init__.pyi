@@ -1,10 +1,10 @@
 # Written by `python -m script.stubs`.
+from meshforge.engines.limits import ENGINES as ENGINES
 from meshforge.engines.limits import Engine as Engine
 from meshforge.engines.limits import Finding as Finding
 from meshforge.engines.limits import Limit as Limit
 from meshforge.engines.limits import Severity as Severity
 from meshforge.engines.limits import check_limits as check_limits
+from meshforge.engines.limits import find_engine as find_engine
 from meshforge.engines.limits import make_limit as make_limit
-from meshforge.engines.table import ENGINES as ENGINES
-from meshforge.engines.table import find_engine as find_engine
-from meshforge.engines.table import note_limits as note_limits
+from meshforge.engines.limits import note_limits as note_limits

@@ -1,15 +1,20 @@
-"""Limits of physics engines: what each measures of a hull, and what of a mesh is beyond them, as findings."""
+"""Physics engines: what each limit measures of a hull, and what of a mesh is beyond them, as findings; the engines, as
+`engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
+test holds the two together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+import tomllib
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from importlib.resources import files
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from meshforge import symbolic
-from meshforge.common import join_names, pluralize
+from meshforge.common import UsageError, join_names, pluralize, suggest_among
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
 
 Severity = Literal["error", "warning"]
@@ -175,3 +180,44 @@ def _check_one_hull_a_file(engine: Engine, mesh: symbolic.SymbolicMesh) -> Itera
     names = tuple(hull.name for hull in mesh.hulls)
     message = f"{pluralize(len(names), 'hull')} in one mesh file; MuJoCo makes a single hull of them"
     yield Finding("mujoco-one-hull-a-file", "warning", names, message, "Write one file a hull, as for URDF or MJCF.")
+
+
+def _read_engines() -> Iterator[Engine]:
+    text = files("meshforge.engines").joinpath("engines.toml").read_text("utf-8")
+    for name, row in tomllib.loads(text).items():
+        limits = tuple(make_limit(**limit) for limit in row.pop("limits"))
+        yield Engine(name, limits=limits, primitives=frozenset(row.pop("primitives")), **row)
+
+
+ENGINES = MappingProxyType({engine.name: engine for engine in _read_engines()})
+"""The engines whose limits are known, by the name that the command line takes."""
+
+
+def find_engine(name: str) -> Engine:
+    """Return the engine of a name. Raises UsageError for one that is not known."""
+    if name not in ENGINES:
+        raise UsageError(f"there is no engine {name!r}", remedy=suggest_among(name, ENGINES, "Known are:"))
+    return ENGINES[name]
+
+
+def note_limits(
+    geoms: Iterable[symbolic.Geom], engines: Iterable[str], holds: Collection[symbolic.FeatureKind]
+) -> tuple[str, ...]:
+    """Return a note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the
+    remedy.
+
+    engines: by name; holds: what the format holds: a native shape that it does not counts as the mesh that stands for
+    it.
+    """
+    native = {kind for kind, what in symbolic.PRIMITIVE_FEATURES.items() if what in holds}
+    written = [
+        geom if geom.shape.kind in {"polytope", *native} else replace(geom, shape=geom.shape.tessellate())
+        for geom in geoms
+    ]
+    found: dict[str, tuple[Finding, list[str]]] = {}
+    for engine in map(ENGINES.__getitem__, engines):
+        limits = (limit for limit in engine.limits if limit.severity == "error")
+        broken = (finding for limit in limits if (finding := check_limit(engine, limit, written)))
+        for finding in (*broken, *check_primitives(engine, written)):
+            found.setdefault(finding.message, (finding, []))[1].append(engine.title)
+    return tuple(f"{' and '.join(titles)}: {one.message}. {one.remedy}" for one, titles in found.values())

@@ -29,7 +29,7 @@ _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML 
 
 _SUFFIXES = {
     "urdf.format:UrdfFormat": ("urdf",),
-    "urdf.xacro:XacroFormat": ("xacro",),
+    "urdf.format:XacroFormat": ("xacro",),
     "mjcf.format:MjcfFormat": ("xml", "mjcf"),
     "sdf.format:SdfFormat": ("sdf",),
     "gltf.format:GltfFormat": ("glb", "gltf"),

@@ -1,7 +1,5 @@
 """The one model of what labels are: all that is said of a family weighed into a probability for each hull and label."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

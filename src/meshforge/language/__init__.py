@@ -1,7 +1,5 @@
 """The language of programs: extractors, actions, orientation; parsing, printing, evaluating and running them."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

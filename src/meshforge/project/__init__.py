@@ -1,7 +1,5 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

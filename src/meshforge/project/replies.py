@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import assert_never
 
-from meshforge import batch, signoff
+from meshforge import batch
 from meshforge.batch import IN_PROCESS, Failed
 from meshforge.common import ProjectError, join_names, suggest_name
 from meshforge.labels import label_project, set_labels_of
@@ -25,19 +25,19 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
     if reply.later:
         _snooze(store, origin)
         return
-    match question:
-        case signoff.CandidateQuestion():
+    match question.kind:
+        case "candidate" | "label":
             refused = [one.select or () for one in question.choices] if choice is None else []
             select = None if choice is None else choice.select
             answer = Answer(question.rule or 1, question.asset, select, refused)
             store.add_events(demonstrations.check_answer(store, answer).with_origin(origin))
-        case signoff.GroupQuestion():
+        case "group":
             _label(store, question, choice, reply)
-        case signoff.RepairQuestion():
+        case "repair":
             _repair(store, question, choice, reply)
-        case signoff.ResultQuestion():
+        case "result":
             _judge(store, question, choice, reply)
-        case signoff.MistakeQuestion():
+        case "selection":
             if choice is None or choice.id == NO:
                 _snooze(store, origin)
             elif choice.label:
@@ -45,16 +45,16 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             else:
                 place, select = (question.asset, question.rule or 1), choice.select or ()
                 _do(store, origin, lambda: demonstrations.correct_selection(store, *place, select, origin))
-        case signoff.OrientationQuestion():
+        case "orientation":
             if choice is None or choice.orient is None:
                 _snooze(store, origin)
             else:
                 turned = choice.orient
                 _do(store, origin, lambda: store.set_orientation(turned))
-        case signoff.DemonstrationQuestion():
+        case "demonstrate":
             _snooze(store, origin)
         case _:
-            assert_never(question)
+            assert_never(question.kind)
 
 
 def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None:
@@ -65,19 +65,19 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
     """
     before = store.feedback().replied.get(question.id)
     choice, origin = find_choice(question, reply), Origin.of(question, reply)
-    match question, before:
-        case (_, SnoozeEvent()) | (signoff.CandidateQuestion(), _):
+    match question.kind, before:
+        case (_, SnoozeEvent()) | ("candidate" | "label", _):
             reply_to(store, question, reply)
-        case ((signoff.GroupQuestion() | signoff.RepairQuestion()), _) if reply.exceptions or (choice and choice.label):
+        case (("group" | "repair"), _) if reply.exceptions or (choice and choice.label):
             reply_to(store, question, reply)
-        case signoff.ResultQuestion(), _ if choice and choice.id in EXCLUDE:
+        case "result", _ if choice and choice.id in EXCLUDE:
             excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **origin._asdict())
             store.add_events(VerdictEvent(asset=question.asset), excluded)
-        case signoff.ResultQuestion(), VerdictEvent() if choice:
+        case "result", VerdictEvent() if choice:
             run.revise_verdict(store, before, reply, origin)
             if reply.labels:
                 _agree_again(store)
-        case signoff.ResultQuestion(), ExclusionEvent() if choice:  # its result may be another one by now
+        case "result", ExclusionEvent() if choice:  # its result may be another one by now
             store.add_events(ExclusionEvent(asset=question.asset, **origin._asdict()))
         case _:
             problem = f"question {question.id} was replied to before, and what followed from that stays"
@@ -92,7 +92,7 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
     if reply.choice is not None and choice is None:
         remedy = suggest_name(reply.choice, ids, f"Its choices are: {join_names(ids) or 'none'}.")
         raise ProjectError(f"question {question.id} has no choice {reply.choice!r}", remedy=remedy)
-    is_wrong = isinstance(question, signoff.ResultQuestion) and reply.choice == WRONG
+    is_wrong = question.kind == "result" and reply.choice == WRONG
     if (reply.selections or reply.labels) and not is_wrong:
         remedy = f'They go with the choice "{WRONG}" of a question whether a result is right.'
         raise ProjectError(f"question {question.id} takes no selections and labels with that reply", remedy=remedy)
@@ -109,7 +109,7 @@ def _do(store: Store, origin: Origin, effect: Callable[[], object]) -> None:
     store.add_events_before(effect, ReplyEvent(**origin._asdict()))
 
 
-def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _judge(store: Store, question: ReviewQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
     asset, origin = question.asset, Origin.of(question, reply)
     if choice is None:
@@ -131,12 +131,7 @@ def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice 
             _snooze(store, origin)  # it was called wrong before, and nothing more was said
 
 
-def _label(
-    store: Store,
-    question: signoff.GroupQuestion | signoff.MistakeQuestion,
-    choice: ReviewChoice | None,
-    reply: ReviewReply,
-) -> None:
+def _label(store: Store, question: ReviewQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
     labels = dict[str, dict[str, str]]()
     for place, label in sorted({**given, **reply.exceptions}.items()):
@@ -150,7 +145,7 @@ def _label(
     _agree_again(store)
 
 
-def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _repair(store: Store, question: ReviewQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
     (place,), origin = question.hulls, Origin.of(question, reply)
     label = reply.exceptions.get(place) or (choice.label if choice else None)

@@ -1,8 +1,6 @@
 """Pictures of symbolic meshes for labelling, reports, thumbnails and terminals: rays and arithmetic, no display
 needed."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -35,7 +35,6 @@ def compare(
     before: SymbolicMesh,
     after: SymbolicMesh,
     *,
-    view: View = "iso",
     color_by: ColorBy = "label",
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
@@ -49,7 +48,7 @@ def compare(
         build_subject(before, first, up=up),
         build_subject(after, color_hulls(after, color_by, vocabulary, known), up=up),
     ]
-    one, other = (_draw(what, size, background, bounds=joint_bounds(before, after), view=view) for what in subjects)
+    one, other = (_draw(what, size, background, bounds=joint_bounds(before, after)) for what in subjects)
     return one, other
 
 
@@ -57,14 +56,12 @@ def draw_before_after(
     before: SymbolicMesh,
     after: SymbolicMesh,
     *,
-    view: View = "iso",
-    color_by: ColorBy = "label",
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
     up: Up | None = None,
 ) -> Image:
     """Return both pictures side by side, each of `size`, with the number of hulls below each."""
-    pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
+    pair = compare(before, after, size=size, vocabulary=vocabulary, up=up)
     return make_contact_sheet(pair, columns=2, titles=_count_hulls(before, after))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,33 +41,8 @@ class SampleFamily:
         return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in paths}
 
 
-FAMILIES = (
-    SampleFamily(
-        "bottles",
-        "12 bottles as OBJ, 1 to 17 hulls each: bodies in slices, caps, a pump, a trigger",
-        "*.obj",
-        ("body", "cap"),
-    ),
-    SampleFamily(
-        "cups",
-        "12 cups as URDF, 10 to 41 hulls each: walls of tiles, none to three handles",
-        "**/*.urdf",
-        ("base", "wall", "handle", "lid"),
-    ),
-    SampleFamily(
-        "chairs",
-        "10 chairs as GLB and glTF, 6 to 25 hulls each: colliders as KHR, Unreal, Godot and Unity have them",
-        "*.gl*",
-        ("seat", "leg", "back", "arm", "rail"),
-    ),
-    SampleFamily(
-        "tables",
-        "14 tables as OBJ, 26 to 66 hulls each, decomposed by CoACD: those of `meshforge demo`",
-        "*.obj",
-        ("panel", "leg", "handle", "drawer", "misc"),
-        "table_*",
-    ),
-)
+_ROWS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+FAMILIES = tuple(SampleFamily(name, **{**row, "vocabulary": tuple(row["vocabulary"])}) for name, row in _ROWS.items())
 """Every family, with its assets in the order of their names."""
 
 

@@ -1,7 +1,5 @@
 """How probable it is that each edit of a family is right, why it may not be, and what to ask a person next."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
@@ -9,11 +7,7 @@ __getattr__, __all__ = export_lazily(
     {
         "assessment": "THRESHOLD Assessment AssetConfidence Reason ReasonKind ReviewState",
         "outliers": "EditMeasures describe_outliers measure_edit",
-        "question": (
-            "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion CandidateQuestion "
-            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply MistakeQuestion "
-            "question_of"
-        ),
+        "question": "ExclusionReason HullPlace ReviewChoice ReviewQuestion ReviewReply question_of",
         "review": "assess_asset review_family",
     },
 )

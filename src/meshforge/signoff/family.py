@@ -13,8 +13,7 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import EXTREMITY, Program
-from meshforge.signoff.assessment import ReviewState
-from meshforge.signoff.confidence import AssetEvidence, read_calibration
+from meshforge.signoff.assessment import AssetEvidence, ReviewState, read_calibration
 from meshforge.signoff.likely_mistakes import RuleMistake, find_mistakes
 from meshforge.signoff.program_run import (
     AlternativeLabel,

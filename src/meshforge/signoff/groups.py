@@ -1,4 +1,5 @@
-"""Questions about groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance."""
+"""Questions about groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance; and
+whether assets are turned first, on the asset of a family that shows best what that does."""
 
 from __future__ import annotations
 
@@ -8,9 +9,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from meshforge.signoff.confidence import LEAST
+from meshforge.common import MeshForgeError
+from meshforge.geometry import Floats
+from meshforge.label_model.describe import find_up, rotation_to_z, up_in_file
+from meshforge.language import Orient, find_rotation
+from meshforge.signoff.assessment import LEAST, ReviewState
 from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
-from meshforge.signoff.question import GroupQuestion, HullPlace, ReviewChoice, identify, price_group
+from meshforge.signoff.question import (
+    NO,
+    YES,
+    YES_OR_NO,
+    HullPlace,
+    ReviewChoice,
+    ReviewQuestion,
+    identify,
+    price_group,
+)
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import OrientationSuggestion
 
 MOST_HULLS = 24
 """Hulls of a group."""
@@ -102,12 +118,12 @@ def _best_of(family: FamilyRun, label: str, some: Sequence[_Suspect]) -> _Lookal
     return best
 
 
-def ask_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[GroupQuestion]:
+def ask_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[ReviewQuestion]:
     """Ask about the hulls that matter most for some assets, each group as large as is worth its seconds."""
     yield from (_ask_group(family, group) for group in _find_groups(family, open_assets))
 
 
-def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
+def ask_clusters(family: FamilyRun) -> Iterator[ReviewQuestion]:
     """Ask once about look-alikes of several assets, which err together, whose labels decide edits that nobody looked
     at, however sure each edit is by itself."""
     known = family.state.reviewed_assets | family.state.excluded.keys()
@@ -117,7 +133,7 @@ def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
             yield _ask_group(family, group)
 
 
-def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
+def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> ReviewQuestion:
     labels_of_group = (family.state.meshes[asset].hull_of(hull).annotation for asset, hull in group.hulls)
     names = Counter(label.name if label else "nothing" for label in labels_of_group)
     counts = dict(sorted(names.items(), key=lambda one: (-one[1], one[0])))
@@ -129,7 +145,9 @@ def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
     else:
         text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    question = identify(GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
+    question = identify(
+        ReviewQuestion("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+    )
     other = _find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
     return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
 
@@ -143,3 +161,59 @@ def _find_other_label(family: FamilyRun, group: _LookalikeGroup) -> str | None:
     shares = posterior.chances[rows].sum(axis=0)
     others = [place for place, label in enumerate(posterior.seen.labels) if label != group.label]
     return posterior.seen.labels[max(others, key=lambda place: (shares[place], -place))] if others else None
+
+
+_SEEN = 5.0  # degrees by which an asset must turn, to be seen
+_NEAR = 10.0  # degrees by which an asset may still lean where landmarks set it upright
+
+
+def ask_orientation(
+    suggested: OrientationSuggestion | None, state: ReviewState, gain: float
+) -> Iterator[ReviewQuestion]:
+    """Ask whether all assets are to be turned as is suggested, where it is worth asking."""
+    asset = find_turned_asset(state, suggested) if suggested else None
+    if suggested and asset:
+        text = f"Should {asset} stand like this?"
+        yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
+        choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
+        yield identify(ReviewQuestion("orientation", text, YES_OR_NO, gain, asset, choices=choices))
+
+
+def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> str | None:
+    """Return the asset to ask about: one that turns neither least nor most, of those whose selections change if there
+    are any.
+
+    None where some asset that has labels cannot be turned, or none turns so that it is seen. Beside a program only what
+    is set upright counts, and None also where as many assets lean once they are turned.
+    """
+    turned, leaning = dict[str, float](), 0
+    for name, mesh in state.meshes.items():
+        if name in state.excluded or not any(hull.label for hull in mesh.hulls):
+            continue
+        try:
+            before, after = (_show_upright(mesh, orient) for orient in (state.frame.orient, suggested.orient))
+        except MeshForgeError:
+            return None
+        turn = _to_degrees(float(np.sum(before * after) - 1) / 2)
+        is_tilted = suggested.before and _angle(before[2], after[2]) > _SEEN
+        upright = find_up(mesh, after[2]) if is_tilted else after[2]
+        if _angle(upright, after[2]) > _NEAR:
+            leaning += 1
+        elif (_angle(upright, before[2]) if suggested.before else turn) > _SEEN:
+            turned[name] = turn
+    names = sorted([name for name in suggested.differs_on if name in turned] or turned, key=turned.__getitem__)
+    return names[len(names) // 2] if len(turned) > leaning else None
+
+
+def _show_upright(mesh: SymbolicMesh, orient: Orient | None) -> Floats:
+    """The rotation (3, 3) that shows a mesh: by an orientation, then so that Z points up. Raises ProgramError."""
+    turn = find_rotation(mesh, orient) if orient else np.eye(3)
+    return turn if orient and orient.names_z else rotation_to_z(up_in_file(mesh)) @ turn
+
+
+def _angle(a: Floats, b: Floats) -> float:
+    return _to_degrees(float(a @ b))
+
+
+def _to_degrees(cosine: float) -> float:
+    return float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))

@@ -13,10 +13,10 @@ from meshforge.label_model import FamilyPosterior
 from meshforge.language import Program, show
 from meshforge.signoff.assessment import ReviewState
 from meshforge.signoff.program_run import ProgramRun, select_by
-from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, MistakeQuestion, ReviewChoice, identify
+from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, ReviewChoice, ReviewQuestion, identify
 from meshforge.symbolic import HUMAN_SOURCES, mask_of
 from meshforge.synthesis import Example, LikelyMistake, Nearest, Options, Repair, find_mistake
-from meshforge.synthesis.likely_mistakes import MOST_MISTAKES
+from meshforge.synthesis.diagnosis import MOST_MISTAKES
 
 _LEAST_SHARE = 0.05  # from which on a slip is asked about
 _LEAST_CHANCE = 0.05  # of another label, from which on it is offered
@@ -93,7 +93,7 @@ def _is_refused(state: ReviewState, rule: int, run: ProgramRun, mask: int | None
     return bool(refused) and mask is not None and frozenset(run.names(rule, mask)) in refused
 
 
-def ask_about_mistake(state: ReviewState, found: RuleMistake) -> MistakeQuestion:
+def ask_about_mistake(state: ReviewState, found: RuleMistake) -> ReviewQuestion:
     """Return the question whether it is one."""
     mistake, rule = found.mistake, found.rule
     text = _liken_to_shown(state, found) or (
@@ -104,7 +104,7 @@ def ask_about_mistake(state: ReviewState, found: RuleMistake) -> MistakeQuestion
     )
 
 
-def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> MistakeQuestion | None:
+def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
     """Return the question where nothing fits what was shown and said, and an extractor nearly does."""
     if len(nearest.extra) + len(nearest.missing) > MOST_MISTAKES:
         return None
@@ -119,7 +119,7 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
     return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
 
 
-def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> MistakeQuestion | None:
+def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> ReviewQuestion | None:
     """Return the question where a person kept the label that would have to be another one for what was shown and said:
     what was shown or said of that hull may be the mistake."""
     hull, asset = repair.fix.hull, repair.fix.asset
@@ -146,7 +146,7 @@ def _liken_to_shown(state: ReviewState, found: RuleMistake) -> str | None:
     return f"{join_names(mistake.missing)} {verb} {next(iter(labels))}, like {others}"
 
 
-def offer_label(state: ReviewState, posterior: FamilyPosterior, question: MistakeQuestion) -> MistakeQuestion:
+def offer_label(state: ReviewState, posterior: FamilyPosterior, question: ReviewQuestion) -> ReviewQuestion:
     """Return the same question with one more choice: that its hull has another label, where one is likely."""
     if len(question.hulls) != 1 or not posterior.seen.labels:
         return question
@@ -169,7 +169,7 @@ def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:
 
 def _ask(
     state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
-) -> MistakeQuestion:
+) -> ReviewQuestion:
     asset, rule = place
     shown = _read_selection(state, asset, rule) or frozenset()
     corrected = tuple(sorted((shown | {*missing}) - {*extra}))
@@ -181,4 +181,4 @@ def _ask(
         ReviewChoice(NO, "no, on purpose", select=tuple(sorted(shown))),
         ReviewChoice(YES, "yes, by mistake", select=corrected),
     )
-    return identify(MistakeQuestion(text, YES_OR_NO, gain, asset, rule, hulls, choices))
+    return identify(ReviewQuestion("selection", text, YES_OR_NO, gain, asset, rule, hulls, choices))

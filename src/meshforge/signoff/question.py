@@ -1,4 +1,4 @@
-"""What a person is asked about a family, a class each kind, how they reply, and what a reply costs a person [s], by the
+"""What a person is asked about a family, how they reply, and what a reply costs a person [s], by the
 keystroke-level model (Card, Moran and Newell 1980)."""
 
 from __future__ import annotations
@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
-from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 from meshforge.language import Orient, Program, show
 from meshforge.synthesis import Demonstration
@@ -58,13 +58,14 @@ class ReviewChoice:
 
 
 @dataclass(frozen=True, slots=True)
-class QuestionBase:
-    """One question. text: in plain words; seconds: of a person, by the keystroke-level model; gain: assets that an
-    answer makes right, as far as can be expected; asset: where to look; hulls: those in question; choices: the first
-    one leaves things as they are; id: bound to all that it is about.
+class ReviewQuestion:
+    """One question. kind: `label` is a candidate with a label that no demonstration shows, `selection` a likely mistake
+    in what a rule was shown or answered to select; text: in plain words; seconds: of a person, by the keystroke-level
+    model; gain: assets that an answer makes right, as far as can be expected; asset: where to look; hulls: those in
+    question; choices: the first one leaves things as they are; id: bound to all that it is about.
     """
 
-    kind: ClassVar[QuestionKind]
+    kind: QuestionKind
     text: str
     seconds: float
     gain: float
@@ -97,70 +98,9 @@ class QuestionBase:
         }
 
 
-class GroupQuestion(QuestionBase):
-    """What hulls that look alike are."""
-
-    kind: ClassVar[QuestionKind] = "group"
-
-
-class RepairQuestion(QuestionBase):
-    """Whether one hull has another label, with which what was shown makes sense."""
-
-    kind: ClassVar[QuestionKind] = "repair"
-
-
-class CandidateQuestion(QuestionBase):
-    """What a rule means on an asset."""
-
-    kind: ClassVar[QuestionKind] = "candidate"
-
-
-class UnseenLabelQuestion(CandidateQuestion):
-    """What a rule means on an asset with a label that no demonstration shows."""
-
-    kind: ClassVar[QuestionKind] = "label"
-
-
-class MistakeQuestion(QuestionBase):
-    """Whether hulls were selected, or left out, by mistake where a rule was shown or answered."""
-
-    kind: ClassVar[QuestionKind] = "selection"
-
-
-class OrientationQuestion(QuestionBase):
-    """Whether assets are turned first."""
-
-    kind: ClassVar[QuestionKind] = "orientation"
-
-
-class ResultQuestion(QuestionBase):
-    """Whether a result is right."""
-
-    kind: ClassVar[QuestionKind] = "result"
-
-
-class DemonstrationQuestion(QuestionBase):
-    """Asks for a demonstration."""
-
-    kind: ClassVar[QuestionKind] = "demonstrate"
-
-
-ReviewQuestion = (
-    GroupQuestion
-    | RepairQuestion
-    | CandidateQuestion
-    | MistakeQuestion
-    | OrientationQuestion
-    | ResultQuestion
-    | DemonstrationQuestion
-)
-_KINDS: Mapping[str, type[ReviewQuestion]] = {one.kind: one for one in (*get_args(ReviewQuestion), UnseenLabelQuestion)}
-
-
 def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
     """Return the question that was asked; asked: as `to_json` writes it; None for a kind that is gone."""
-    kind = _KINDS.get(asked["kind"])
-    if kind is None:
+    if asked["kind"] not in get_args(QuestionKind):
         return None
     choices = tuple(
         ReviewChoice(
@@ -173,14 +113,11 @@ def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
         for one in asked["choices"]
     )
     hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in asked["hulls"])
-    rest = {name: asked[name] for name in ("text", "seconds", "gain", "asset", "rule", "id")}
-    return kind(hulls=hulls, choices=choices, **rest)
+    rest = {name: asked[name] for name in ("kind", "text", "seconds", "gain", "asset", "rule", "id")}
+    return ReviewQuestion(hulls=hulls, choices=choices, **rest)
 
 
-Draft = TypeVar("Draft", bound=QuestionBase)
-
-
-def identify(draft: Draft, bound: Sequence[str] = ()) -> Draft:
+def identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:
     """Return a question with its id, which all that it is about decides. bound: what else it is about."""
     words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
     words += [f"{one.id} {one.label} {one.select}" for one in draft.choices]

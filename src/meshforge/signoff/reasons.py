@@ -10,8 +10,7 @@ from math import prod
 import numpy as np
 
 from meshforge.language import show
-from meshforge.signoff.assessment import MOST_REASONS, AssetConfidence, Reason, ReasonKind, ReviewState
-from meshforge.signoff.confidence import NO_EDIT
+from meshforge.signoff.assessment import MOST_REASONS, NO_EDIT, AssetConfidence, Reason, ReasonKind, ReviewState
 from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.program_run import RULE_OF_FRAME, AlternativeLabel, ProgramRun
 from meshforge.synthesis import LearningOutcome, NeedsRepair

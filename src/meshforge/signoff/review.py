@@ -12,12 +12,10 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
-from meshforge.signoff import question as kinds
 from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, ReviewState
 from meshforge.signoff.family import FamilyRun
-from meshforge.signoff.groups import ask_clusters, ask_groups
+from meshforge.signoff.groups import ask_clusters, ask_groups, ask_orientation
 from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
-from meshforge.signoff.orientation import ask_orientation
 from meshforge.signoff.program_run import CandidateSplit, ProgramRun, split_candidates
 from meshforge.signoff.question import (
     CANDIDATE,
@@ -26,6 +24,7 @@ from meshforge.signoff.question import (
     WRONG,
     YES_OR_NO,
     HullPlace,
+    QuestionKind,
     ReviewChoice,
     ReviewQuestion,
     identify,
@@ -141,13 +140,15 @@ def _questions_before(
             return
 
 
-def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[kinds.RepairQuestion]:
+def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[ReviewQuestion]:
     for repair in outcome.repairs:
         wrong, place = repair.fix, HullPlace(repair.fix.asset, repair.fix.hull)
         text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
         choices = tuple(map(ReviewChoice.of_label, [wrong.to, *([wrong.was] if wrong.was else [])]))
         gain = everyone * repair.belief
-        question = identify(kinds.RepairQuestion(text, YES_OR_NO, gain, wrong.asset, repair.rule, (place,), choices))
+        question = identify(
+            ReviewQuestion("repair", text, YES_OR_NO, gain, wrong.asset, repair.rule, (place,), choices)
+        )
         if question.id not in state.snoozed:
             yield question
 
@@ -172,9 +173,9 @@ def _questions(
 def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
     """Those that may be asked, what is worth most a second first; of equals the first by its id. Who refused to turn
     the assets is not asked again on another one."""
-    is_refused = any(name.startswith(kinds.OrientationQuestion.kind) for name in state.snoozed)
+    is_refused = any(name.startswith("orientation") for name in state.snoozed)
     asked = {one.id: one for one in questions if one.id not in state.snoozed}.values()
-    left = (one for one in asked if not (is_refused and isinstance(one, kinds.OrientationQuestion)))
+    left = (one for one in asked if not (is_refused and one.kind == "orientation"))
     return tuple(sorted(left, key=lambda one: (-one.worth, one.id)))
 
 
@@ -200,16 +201,16 @@ def _ask_candidates(family: FamilyRun, found: Assessment) -> Iterator[ReviewQues
             yield _ask_candidate(family, rule.rule, split)
 
 
-def _ask_candidate(family: FamilyRun, rule: int, split: CandidateSplit) -> kinds.CandidateQuestion:
+def _ask_candidate(family: FamilyRun, rule: int, split: CandidateSplit) -> ReviewQuestion:
     known, run = family.candidates[rule - 1], family.runs[split.asset]
     choices = []
     for letter, head in zip("abc", split.heads, strict=False):
         selected = run.names(rule, family.select(known, head, split.asset))
         choices.append(ReviewChoice(letter, show(known.extractors[head]), select=selected))
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
-    kind = kinds.UnseenLabelQuestion if run.asset in family.unseen_labels else kinds.CandidateQuestion
+    kind: QuestionKind = "label" if run.asset in family.unseen_labels else "candidate"
     text = f"What does rule {rule} mean on {run.asset}?"
-    return identify(kind(text, CANDIDATE, gain, run.asset, rule, (), tuple(choices)))
+    return identify(ReviewQuestion(kind, text, CANDIDATE, gain, run.asset, rule, (), tuple(choices)))
 
 
 def _gains_of(family: FamilyRun, splits: Sequence[CandidateSplit], looks: int = 0) -> Floats:
@@ -275,23 +276,23 @@ JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *_E
 
 def _ask_result(
     run: ProgramRun, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
-) -> kinds.ResultQuestion:
+) -> ReviewQuestion:
     """Whether a result is right; where the program cannot run there is none that could be. What is right where it was
     called wrong is the same question, so that a reply which was given before is known."""
     if run.error:
         text, choices = f"The program cannot run on {run.asset}: {run.error}. Correct it, or exclude it?", _CORRECT
     text = text or f"Is the result of {run.asset} right?"
-    draft = kinds.ResultQuestion(
-        text, seconds, gain, run.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
+    draft = ReviewQuestion(
+        "result", text, seconds, gain, run.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
     )
     return replace(identify(draft, [f"{bits:x}" for bits in run.selections]), choices=choices)
 
 
-def _ask_to_exclude(asset: str, why: str) -> kinds.ResultQuestion:
+def _ask_to_exclude(asset: str, why: str) -> ReviewQuestion:
     text = f"{asset} cannot be read: {why} Is it to be excluded?"
-    return identify(kinds.ResultQuestion(text, YES_OR_NO, 0.0, asset, choices=_EXCLUDE_CHOICES), [why])
+    return identify(ReviewQuestion("result", text, YES_OR_NO, 0.0, asset, choices=_EXCLUDE_CHOICES), [why])
 
 
-def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> kinds.DemonstrationQuestion:
+def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
     seconds = price_demonstration(state.demos.values())
-    return identify(kinds.DemonstrationQuestion(text.format(asset), seconds, gain, asset))
+    return identify(ReviewQuestion("demonstrate", text.format(asset), seconds, gain, asset))

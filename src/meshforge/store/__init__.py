@@ -1,8 +1,6 @@
 """The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
 use case."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -20,7 +20,7 @@ from pydantic import (
 from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
-from meshforge.signoff.question import ExclusionReason, QuestionBase, ReviewReply
+from meshforge.signoff.question import ExclusionReason, ReviewQuestion, ReviewReply
 from meshforge.store.layout import JsonFile, ReplacedHulls
 
 Line = TypeVar("Line")
@@ -44,7 +44,7 @@ class Origin(NamedTuple):
     origin: QuestionAndReply | None = None
 
     @staticmethod
-    def of(question: QuestionBase, reply: ReviewReply) -> Origin:
+    def of(question: ReviewQuestion, reply: ReviewReply) -> Origin:
         return Origin(question.id, reply.by, QuestionAndReply(asked=question.to_json(), reply=reply.to_json()))
 
 

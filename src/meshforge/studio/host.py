@@ -14,8 +14,7 @@ from meshforge.project import Project
 from meshforge.store import ConflictError
 from meshforge.studio.pages import PageConnection, PageHub
 from meshforge.studio.session.session import Session, StudioOptions
-from meshforge.studio.start.page import StartPage
-from meshforge.studio.start.recent import state_folder
+from meshforge.studio.start.page import StartPage, state_folder
 from meshforge.studio.wire.events import Start
 
 EXIT_TIMEOUT = 3.0

@@ -10,7 +10,6 @@ from typing import get_args
 
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, PropagationState
-from meshforge.rendering import UNSURE
 from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.pages import PageState
@@ -69,16 +68,12 @@ class LabelChanges:
         return PropagationState(unused=unused, next=used.best if is_open else None)
 
     def _build_change(self, entry: HistoryEntry, names: HullNames) -> LabelUpdate:
-        files = {asset: name for asset, name in _labels_files(entry.names).items() if asset in names}
-        states = [
-            (a, self._read_state(entry.before[name]), self._read_state(entry.after[name])) for a, name in files.items()
-        ]
-        assets = (diff_labels(asset, names[asset], before, after) for asset, before, after in states)
-        return LabelUpdate(
-            way=entry.edit["kind"],
-            assets=tuple(filter(None, assets)),
-            newly_sure=sum(count_newly_sure(before, after) for _, before, after in states),
+        found = (
+            diff_labels(a, names[a], self._read_state(entry.before[name]), self._read_state(entry.after[name]))
+            for a, name in _labels_files(entry.names).items()
+            if a in names
         )
+        return LabelUpdate(way=entry.edit["kind"], assets=tuple(filter(None, found)))
 
     def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
         last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
@@ -128,12 +123,6 @@ def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: Hul
     if not new and not changed:
         return None
     return AssetLabelUpdate(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
-
-
-def count_newly_sure(before: HullLabels, after: HullLabels) -> int:
-    """Return how many labels are sure now and were not."""
-    pairs = ((was, after.get(name)) for name, was in before.items())
-    return sum(was.confidence < UNSURE <= now.confidence for was, now in pairs if now)
 
 
 def count_new_labels(before: HullLabels, now: HullLabels) -> int:

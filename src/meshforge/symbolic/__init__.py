@@ -1,7 +1,5 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -13,7 +13,7 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.candidates.rank import RankedCandidates
-from meshforge.synthesis.questions import Hint, OpenRule
+from meshforge.synthesis.demonstration import Hint, OpenRule
 from meshforge.synthesis.task import memoize
 
 MAX_NEITHER_ANSWERS = 4

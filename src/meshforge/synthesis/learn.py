@@ -8,11 +8,17 @@ from dataclasses import replace
 from meshforge.common import DemonstrationError, suggest_among
 from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
+from meshforge.synthesis.demonstration import (
+    Answer,
+    Demonstration,
+    LabelFix,
+    Repair,
+    collect_rule_specs,
+    name_demonstrations,
+)
 from meshforge.synthesis.learning_run import LearningRun
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
-from meshforge.synthesis.questions import Answer, LabelFix, Repair
 from meshforge.synthesis.search.terms import enumerate_more_leaves
 from meshforge.synthesis.task import Family, LearningTask, apply_fixes, name_family
 

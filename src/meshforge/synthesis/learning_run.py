@@ -14,7 +14,16 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
-from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.demonstration import (
+    Answer,
+    Demonstration,
+    Example,
+    LabelFix,
+    OpenRule,
+    Repair,
+    RuleSpec,
+    name_demonstrations,
+)
 from meshforge.synthesis.diagnosis import give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.alternatives import find_more_believable
@@ -25,7 +34,6 @@ from meshforge.synthesis.orientation.suggest import (
     suggest_orientation,
 )
 from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
-from meshforge.synthesis.questions import Answer, LabelFix, OpenRule, Repair
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
 from meshforge.synthesis.search.smallest import Hit, Miss, Search, SearchEffort, Unfinished
 from meshforge.synthesis.task import LearningTask, ReplaySet, correct_demonstrations, memoize

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from meshforge.language import EXTREMITY, Leaf
-from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.demonstration import LabelFix
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
 LAYERS: tuple[Layers, ...] = get_args(Layers)

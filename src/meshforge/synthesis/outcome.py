@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 from meshforge.language import Extractor, Program, Rule, show, size_of
+from meshforge.synthesis.demonstration import Answer, Hint, OpenRule, Repair
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion
-from meshforge.synthesis.questions import Answer, Hint, OpenRule, Repair
 from meshforge.synthesis.search.smallest import NearestExtractor, SearchEffort
 
 

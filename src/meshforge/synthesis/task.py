@@ -13,9 +13,16 @@ from meshforge.language import Replay
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.candidates.belief import NEITHER
 from meshforge.synthesis.candidates.rank import Preference
-from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, Step, name_demonstrations
+from meshforge.synthesis.demonstration import (
+    Answer,
+    Demonstration,
+    Example,
+    LabelFix,
+    RuleSpec,
+    Step,
+    name_demonstrations,
+)
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import Answer, LabelFix
 
 Family = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""

@@ -23,7 +23,6 @@ from meshforge.batch import (
     expand,
     hold_lock,
     make_jobs,
-    status_of,
     to_json_line,
 )
 from meshforge.batch.outcome import Edited, Unchanged
@@ -39,7 +38,7 @@ def run(assets: Path, out: Path, text: str = PROGRAM, **more: Any) -> list[Asset
 
 
 def words(outcomes: Sequence[AssetOutcome]) -> list[str]:
-    return [status_of(outcome) for outcome in outcomes]
+    return [outcome.status for outcome in outcomes]
 
 
 def results(folder: Path) -> dict[str, bytes]:
@@ -203,7 +202,7 @@ def test_only_one_run_may_write_into_a_folder(assets: Path, out: Path) -> None:
 
 def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Path, out: Path) -> None:
     outcomes = apply(Program.parse(PROGRAM), make_jobs(expand([assets])), out, execution=ExecutionOptions(1))
-    assert status_of(next(outcomes)) == "edited"
+    assert next(outcomes).status == "edited"
     assert isinstance(outcomes, Generator)
     outcomes.close()
     assert sorted(results(out)) == ["table0/model.labels.json", "table0/model.obj"]
@@ -225,7 +224,7 @@ def test_a_folder_of_pieces_is_edited_as_one_asset(tmp_path: Path, out: Path) ->
     (tmp_path / "pieces.labels.json").write_text(json.dumps({"hulls": {"left": "a", "right": "a", "far": "b"}}))
     program = "labels a, b\nIs(a) => Merge\n"
     outcomes = run(tmp_path / "pieces", out, program)
-    assert [(o.asset, status_of(o)) for o in outcomes] == [("pieces", "edited")]
+    assert [(o.asset, o.status) for o in outcomes] == [("pieces", "edited")]
     assert {hull.name: hull.label for hull in load(out / "pieces").hulls} == {"far": "b", "left~1": "a"}
     assert words(run(tmp_path / "pieces", out, program)) == ["skipped"]
     (tmp_path / "pieces/more.obj").write_text(obj({"more": ((20, 0, 0), (21, 1, 1))}))

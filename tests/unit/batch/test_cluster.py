@@ -17,7 +17,6 @@ from meshforge.batch import (
     check_assets,
     expand,
     make_jobs,
-    status_of,
 )
 from meshforge.batch.execution import run_on_cluster
 from meshforge.checks import CheckOptions
@@ -73,11 +72,11 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
             cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
             cluster.add_node(num_cpus=1)
             killed = True
-    assert [(o.asset, status_of(o)) for o in there] == [(o.asset, status_of(o)) for o in here]
+    assert [(o.asset, o.status) for o in there] == [(o.asset, o.status) for o in here]
     assert [o.asset for o in there if isinstance(o, Failed)] == ["table7/model.obj"]
     assert tree(tmp_path / "there") == tree(tmp_path / "here")
     again = apply(program, work, tmp_path / "there", execution=ExecutionOptions(backend="ray"))
-    assert {status_of(o) for o in again} == {"skipped", "failed"}
+    assert {o.status for o in again} == {"skipped", "failed"}
 
 
 def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import IN_PROCESS, apply, expand, make_jobs, status_of
+from meshforge.batch import IN_PROCESS, apply, expand, make_jobs
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, tree, write_tables, write_urdf_table
 from tests.unit.deaths import deaths, needs_fork
@@ -22,7 +22,7 @@ NEW = "labels top, leg, misc\nIs(misc) => Delete\nIs(leg) => Merge\n"
 
 def run(assets: Path, out: Path, text: str) -> list[str]:
     outcomes = apply(Program.parse(text), make_jobs(expand([assets])), out, execution=IN_PROCESS)
-    return [status_of(outcome) for outcome in outcomes]
+    return [outcome.status for outcome in outcomes]
 
 
 def files(out: Path) -> dict[str, bytes]:
@@ -80,7 +80,7 @@ def test_ctrl_c_leaves_finished_work_intact_and_no_process_behind(tmp_path: Path
     wait_until_gone(process.pid)
     finished = [first, *rest.split()]
     work = make_jobs(expand([assets]))[: len(finished) + 1]
-    words = [status_of(outcome) for outcome in apply(Program.parse(PROGRAM), work, out, execution=IN_PROCESS)]
+    words = [outcome.status for outcome in apply(Program.parse(PROGRAM), work, out, execution=IN_PROCESS)]
     assert words == ["skipped"] * len(finished) + ["edited"]
     assert not (out / ".meshforge" / "drafts").exists()
 

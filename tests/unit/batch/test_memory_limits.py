@@ -17,7 +17,6 @@ from meshforge.batch import (
     expand,
     make_jobs,
     run_isolated,
-    status_of,
 )
 from meshforge.batch.outcome import MOST_SHOWN, Unchanged
 from meshforge.batch.workers import MIB
@@ -55,7 +54,7 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
             execution=ExecutionOptions(1, memory=100 * MIB),
         )
     )
-    assert [status_of(outcome) for outcome in outcomes] == ["failed", "edited", "edited"]
+    assert [outcome.status for outcome in outcomes] == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed)
     assert "big.obj: there is not enough memory for it\n  More for one asset: --memory" in outcomes[0].error
 

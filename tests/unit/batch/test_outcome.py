@@ -18,7 +18,6 @@ from meshforge.batch import (
     expand,
     make_jobs,
     read_stamp,
-    status_of,
     to_json_line,
 )
 from meshforge.batch.outcome import Edited, Unchanged
@@ -42,7 +41,7 @@ def test_every_outcome_pickles_and_has_a_json_line_of_one_shape(word: str, outco
     assert again == outcome
     line = json.loads(json.dumps(to_json_line(again)))
     assert list(line) == ["asset", "status", "out", "error", "rules", "hulls", "seconds"]
-    assert line["status"] == status_of(outcome) == word
+    assert line["status"] == outcome.status == word
     assert set(line["hulls"]) == {"before", "after"}
 
 

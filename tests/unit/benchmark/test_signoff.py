@@ -18,10 +18,7 @@ from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.tasks import task
 from meshforge.signoff import (
-    DemonstrationQuestion,
-    GroupQuestion,
     HullPlace,
-    ResultQuestion,
     ReviewChoice,
     ReviewQuestion,
 )
@@ -47,15 +44,15 @@ class FakeClient(Client):
         first = next(iter(meshes))
         hulls = meshes[first].hulls[:GROUP]
         if not self.project.demonstration_ids():
-            return DemonstrationQuestion("", 1.0, 1.0, first, id=f"show {first}")
+            return ReviewQuestion("demonstrate", "", 1.0, 1.0, first, id=f"show {first}")
         if any(hull.source != "user" for hull in hulls):
             labels = sorted({str(h.label) for mesh in meshes.values() for h in mesh.hulls})
             places = tuple(HullPlace(first, hull.name) for hull in hulls)
             choices = tuple(map(ReviewChoice.of_label, labels))
-            return GroupQuestion("", 1.0, 1.0, first, hulls=places, choices=choices, id="group")
+            return ReviewQuestion("group", "", 1.0, 1.0, first, hulls=places, choices=choices, id="group")
         if not held:
             return None
-        return ResultQuestion("", 1.0, 1.0, held[0], choices=JUDGE_CHOICES, id=f"result {held[0]}")
+        return ReviewQuestion("result", "", 1.0, 1.0, held[0], choices=JUDGE_CHOICES, id=f"result {held[0]}")
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +106,7 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     alike = [hull.name for hull in sample.mesh.hulls if hull.label == labels[0]]
     other = next(hull.name for hull in sample.mesh.hulls if hull.label == labels[1])
     hulls = tuple(HullPlace(name, hull) for hull in (*alike, other))
-    question = GroupQuestion("", 1.0, 1.0, name, None, hulls, (ReviewChoice.of_label(labels[0]),), "group")
+    question = ReviewQuestion("group", "", 1.0, 1.0, name, None, hulls, (ReviewChoice.of_label(labels[0]),), "group")
     reply = reviewer.reply(question, bench.truth, None, None)
     assert (reply.choice, reply.exceptions) == (labels[0], {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)

@@ -68,7 +68,8 @@ print(*(name for name in sys.modules if name.startswith("meshforge.") or name in
 """
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert set(shown.splitlines()[-1].split()) == {
-        *("meshforge.cli", "meshforge.cli.main", "meshforge.cli.command", "meshforge.cli.terminal")
+        *("meshforge.common", "meshforge.common.exports"),
+        *("meshforge.cli", "meshforge.cli.main", "meshforge.cli.main", "meshforge.cli.terminal"),
     }
 
 

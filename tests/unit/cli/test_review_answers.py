@@ -22,12 +22,9 @@ from meshforge.common import UsageError
 from meshforge.geometry import Box, Pose
 from meshforge.language import Program
 from meshforge.signoff import (
-    CandidateQuestion,
-    DemonstrationQuestion,
-    GroupQuestion,
     HullPlace,
-    ResultQuestion,
     ReviewChoice,
+    ReviewQuestion,
     ReviewReply,
     ReviewState,
 )
@@ -36,12 +33,14 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LEFT, RIGHT = HullPlace("a.obj", "left"), HullPlace("b.obj", "right")
 LEG = ReviewChoice.of_label("leg")
-GROUP = GroupQuestion("All legs?", 4.0, 1.0, "a.obj", None, (LEFT, RIGHT), (LEG,), "group-1")
+GROUP = ReviewQuestion("group", "All legs?", 4.0, 1.0, "a.obj", None, (LEFT, RIGHT), (LEG,), "group-1")
 READINGS = (ReviewChoice("a", "Is(leg)", select=("left",)), ReviewChoice("b", "All", select=()))
-READING = CandidateQuestion("What does rule 1 mean on a.obj?", 4.0, 1.0, "a.obj", 1, (), READINGS, "reading-1")
+READING = ReviewQuestion(
+    "candidate", "What does rule 1 mean on a.obj?", 4.0, 1.0, "a.obj", 1, (), READINGS, "reading-1"
+)
 VERDICTS = tuple(ReviewChoice(one, one) for one in ("right", WRONG, *EXCLUDE))
-RESULT = ResultQuestion("Is the result of a.obj right?", 4.0, 1.0, "a.obj", choices=VERDICTS, id="result-1")
-DEMONSTRATE = DemonstrationQuestion("Show the edit on a.obj.", 20.0, 1.0, "a.obj", id="demonstrate-1")
+RESULT = ReviewQuestion("result", "Is the result of a.obj right?", 4.0, 1.0, "a.obj", choices=VERDICTS, id="result-1")
+DEMONSTRATE = ReviewQuestion("demonstrate", "Show the edit on a.obj.", 20.0, 1.0, "a.obj", id="demonstrate-1")
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,7 @@ from itertools import chain
 
 import pytest
 
-from meshforge.cli.command import OTHER_SPELLINGS
-from meshforge.cli.main import COMMANDS, load_command
+from meshforge.cli.main import COMMANDS, OTHER_SPELLINGS, load_command
 from tests.unit.cli.in_process import Run
 
 

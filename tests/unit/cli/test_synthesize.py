@@ -61,15 +61,6 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     assert "Next" not in told.err and project.program() is None
 
 
-@pytest.mark.parametrize("words", [("--answers", "given.json"), ("--accept-repairs",), ("--forget", "all")])
-def test_what_review_does_now_is_named(run: Run, tmp_path: Path, words: tuple[str, ...]) -> None:
-    ambiguous(tmp_path)
-    told = run("synthesize", "racks", *words)
-    assert told.code == 2
-    assert f"meshforge synthesize only learns, and has no {words[0]}" in told.err
-    assert "Use: meshforge review PROJECT --" in told.err
-
-
 def test_answers_are_listed_and_taken_back(run: Run, tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.add_answer(Answer(1, "rack2.obj", None, [["top"]]))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.cli.synthesize_text import LearningContext, format_remarks
+from meshforge.cli.synthesize import LearningContext, format_remarks
 from meshforge.language import All, Is, Program
 from meshforge.synthesis import Ambiguous, CandidateProgram, Found, Hint, OpenRule
 

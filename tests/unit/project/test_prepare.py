@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, Failed
-from meshforge.batch import status_of as word
 from meshforge.common import AssetError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge
@@ -96,7 +95,7 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
     project.demonstrate(HIGH, [Step(1, {n for n in names(project, HIGH) if "cover" in n}, Merge())])
     assert isinstance(project.synthesize(), Found)
     outcomes = list(project.apply(execution=IN_PROCESS))
-    assert [(word(o), getattr(o, "before", 0), getattr(o, "after", 0)) for o in outcomes] == [("edited", 5, 4)] * 2
+    assert [(o.status, getattr(o, "before", 0), getattr(o, "after", 0)) for o in outcomes] == [("edited", 5, 4)] * 2
     edited = load(project.folder / "edited" / LOW)
     assert {hull.name.replace("#1~", "#0~"): hull.label for hull in edited.hulls} == {
         "frame/body#0": "body",
@@ -106,7 +105,7 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
     }
     assert edited.asset and edited.asset.non_convex == ()
     assert all(asset.is_done for asset in project.status(workers=0).assets)
-    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
+    assert [o.status for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
 
 
 def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: Path) -> None:
@@ -133,7 +132,7 @@ def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_
     record.unlink()
     record.mkdir()
     first, second = project.apply(execution=IN_PROCESS)
-    assert isinstance(first, Failed) and str(record) in first.error and word(second) == "edited"
+    assert isinstance(first, Failed) and str(record) in first.error and second.status == "edited"
     assert "preparation.json" in (project.status(workers=0).assets[0].error or "")
 
 

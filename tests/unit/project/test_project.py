@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
-from meshforge.batch import status_of as word
 from meshforge.common import MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
 from meshforge.labels import FileLabeler
@@ -167,14 +166,14 @@ def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
         "left_low~1": "leg",
         "right_low~1": "leg",
     }
-    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 3
-    assert [word(o) for o in project.apply(execution=IN_PROCESS, out=tmp_path / "else")] == ["edited"] * 3
+    assert [o.status for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 3
+    assert [o.status for o in project.apply(execution=IN_PROCESS, out=tmp_path / "else")] == ["edited"] * 3
 
 
 def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(SECOND, ["left_low~1", "right_low~1"], Merge(), "top")
-    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped", "edited", "skipped"]
+    assert [o.status for o in project.apply(execution=IN_PROCESS)] == ["skipped", "edited", "skipped"]
     mesh = load(project.folder / "edited" / SECOND)
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
@@ -216,7 +215,7 @@ def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
     project.label("file")
     project.demonstrate("table.urdf", [Step(1, {"body/crumb"}, Delete())])
     project.synthesize()
-    assert [word(o) for o in project.apply(execution=ExecutionOptions(1))] == ["edited"]
+    assert [o.status for o in project.apply(execution=ExecutionOptions(1))] == ["edited"]
     assert tree(tmp_path / "robots") == before
 
 
@@ -236,4 +235,4 @@ def test_an_unreadable_asset_is_left_out_of_learning_and_fails_in_applying(tmp_p
     with pytest.raises(MeshForgeError):
         project.mesh(THIRD)
     project.synthesize()
-    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "edited", "failed"]
+    assert [o.status for o in project.apply(execution=IN_PROCESS)] == ["edited", "edited", "failed"]

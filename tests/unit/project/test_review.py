@@ -17,10 +17,8 @@ from meshforge.language import Delete
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import (
     HullPlace,
-    MistakeQuestion,
-    RepairQuestion,
-    ResultQuestion,
     ReviewChoice,
+    ReviewQuestion,
     ReviewReply,
 )
 from meshforge.signoff.question import EXCLUDE, NO, NOT_SOLVED, RIGHT, WRONG, YES
@@ -39,9 +37,9 @@ def sign_off_of(project: Project, asset: str) -> str:
     return next(one.sign_off for one in project.status().assets if one.id == asset)
 
 
-def result_of(asset: str) -> ResultQuestion:
+def result_of(asset: str) -> ReviewQuestion:
     choices = tuple(ReviewChoice(one, one) for one in (RIGHT, WRONG, *EXCLUDE))
-    return ResultQuestion("?", 2.65, 0.5, asset, choices=choices, id="r")
+    return ReviewQuestion("result", "?", 2.65, 0.5, asset, choices=choices, id="r")
 
 
 def test_a_demonstrated_asset_is_signed_off_by_a_person_and_a_sure_one_by_the_tool(tmp_path: Path) -> None:
@@ -184,10 +182,10 @@ def test_what_cannot_be_read_is_held_until_it_is_excluded(tmp_path: Path) -> Non
     assert review(project).assessment.need_review == (THIRD,)
 
 
-def selection_of(asset: str) -> MistakeQuestion:
+def selection_of(asset: str) -> ReviewQuestion:
     """The question whether the first rule was shown on an asset with a slip."""
     choices = (ReviewChoice(NO, "no", select=("crumb",)), ReviewChoice(YES, "yes", select=("crumb", "left_low")))
-    return MistakeQuestion("?", 2.65, 0.5, asset, 1, (), choices, "s")
+    return ReviewQuestion("selection", "?", 2.65, 0.5, asset, 1, (), choices, "s")
 
 
 def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_stays(tmp_path: Path) -> None:
@@ -205,7 +203,7 @@ def test_a_repair_that_a_person_did_not_want_is_not_proposed_again(tmp_path: Pat
     was = project.mesh(FIRST).hull_of("crumb").label
     assert was
     choices = tuple(map(ReviewChoice.of_label, ("leg", was)))
-    question = RepairQuestion("?", 2.65, 0.5, FIRST, 1, (HullPlace(FIRST, "crumb"),), choices, "r")
+    question = ReviewQuestion("repair", "?", 2.65, 0.5, FIRST, 1, (HullPlace(FIRST, "crumb"),), choices, "r")
     project.reply(question, ReviewReply("r", was))
     (line,) = project.feedback().fixes.values()
     assert (line.hull, line.was, line.to, line.accepted) == ("crumb", was, "leg", False)

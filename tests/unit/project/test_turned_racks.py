@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.cli.review_pictures import draw_question
+from meshforge.cli.review_session import draw_question
 from meshforge.project import Project
-from meshforge.signoff import OrientationQuestion, ReviewReply
+from meshforge.signoff import ReviewQuestion, ReviewReply
 from meshforge.signoff.question import NO, YES
 from tests.unit.project.replying import look
 from tests.unit.project.turned_racks import racks_on_their_side
@@ -19,8 +19,8 @@ def project(tmp_path: Path) -> Project:
     return racks_on_their_side(tmp_path)
 
 
-def asked(project: Project) -> list[OrientationQuestion]:
-    return [one for one in look(project).assessment.questions if isinstance(one, OrientationQuestion)]
+def asked(project: Project) -> list[ReviewQuestion]:
+    return [one for one in look(project).assessment.questions if one.kind == "orientation"]
 
 
 def test_each_choice_has_a_picture_of_the_asset(project: Project) -> None:

@@ -10,7 +10,7 @@ import pytest
 from meshforge.label_model import model_family
 from meshforge.language import Delete
 from meshforge.signoff import ReviewState
-from meshforge.signoff.confidence import AssetEvidence, read_calibration
+from meshforge.signoff.assessment import AssetEvidence, read_calibration
 from meshforge.signoff.family import FamilyRun, alternative_shares
 from meshforge.signoff.likely_mistakes import ask_about_mistake, offer_label
 from meshforge.signoff.review import review_family

@@ -13,18 +13,12 @@ from meshforge.language import Delete, Program
 from meshforge.signoff import (
     THRESHOLD,
     Assessment,
-    CandidateQuestion,
     ExclusionReason,
-    GroupQuestion,
-    MistakeQuestion,
-    OrientationQuestion,
-    RepairQuestion,
-    ResultQuestion,
     ReviewQuestion,
     ReviewState,
     review_family,
 )
-from meshforge.signoff.confidence import NO_EDIT
+from meshforge.signoff.assessment import NO_EDIT
 from meshforge.signoff.program_run import run_on_asset
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
 from meshforge.symbolic import Label, SymbolicMesh
@@ -167,20 +161,20 @@ def test_the_queue_ends_whatever_is_said() -> None:
 def take_first(state: ReviewState, question: ReviewQuestion) -> ReviewState:
     """What is known after the first choice of a question; a result is right."""
     first = next(iter(question.choices), None)
-    match question:
-        case GroupQuestion() | RepairQuestion():
+    match question.kind:
+        case "group" | "repair":
             meshes = dict(state.meshes)
             for place in question.hulls:
                 label = Label(first.label, 1.0, "user") if first and first.label else None
                 meshes[place.asset] = meshes[place.asset].with_labels({place.hull: label})
             return snooze(replace(state, meshes=meshes), question)
-        case CandidateQuestion():
+        case "candidate" | "label":
             assert first and first.select is not None and question.rule
             answer = Answer(question.rule, question.asset, first.select)
             return replace(state, answers=(*state.answers, answer))
-        case ResultQuestion() if first and first.id == RIGHT:
+        case "result" if first and first.id == RIGHT:
             return accept(state, question.asset, legs_of(question.asset))
-        case MistakeQuestion() | OrientationQuestion():
+        case "selection" | "orientation":
             assert first and first.id == NO
     return snooze(state, question)
 
@@ -262,7 +256,7 @@ def test_who_refused_to_turn_the_assets_is_not_asked_to_turn_another_one() -> No
         assert orient
         suggested = OrientationSuggestion(orient, (3,), "it is shorter", (5,), (asset,))
         found = review_family(state, replace(outcome, suggested=suggested), model_family(list(meshes.values())))
-        return [one for one in found.questions if isinstance(one, OrientationQuestion)]
+        return [one for one in found.questions if one.kind == "orientation"]
 
     (first,), (other,) = asked(state, "t1"), asked(state, "t2")
     assert (first.asset, other.asset) == ("t1", "t2")

@@ -10,8 +10,8 @@ import pytest
 
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
-from meshforge.signoff import OrientationQuestion, ReviewState, review_family
-from meshforge.signoff.orientation import find_turned_asset
+from meshforge.signoff import ReviewState, review_family
+from meshforge.signoff.groups import find_turned_asset
 from meshforge.signoff.question import NO, NOT_OF_FAMILY, YES
 from meshforge.symbolic import Asset, Document, SymbolicMesh
 from meshforge.synthesis import Demonstration, OrientationSuggestion, Step, synthesize
@@ -42,7 +42,7 @@ def test_the_question_is_one_sentence_and_the_first_choice_leaves_assets_as_they
     outcome = synthesize([demo], meshes, vocabulary=LABELS)
     assert outcome.program
     asked = review_family(state, outcome, model_family(list(meshes.values()))).questions
-    (question,) = (one for one in asked if isinstance(one, OrientationQuestion))
+    (question,) = (one for one in asked if one.kind == "orientation")
     assert question.text == "Should rack 2 stand like this?"
     assert [(one.id, one.orient) for one in question.choices] == [(NO, None), (YES, parse_orient(UP))]
 

@@ -10,14 +10,13 @@ from meshforge.signoff import (
     THRESHOLD,
     Assessment,
     AssetConfidence,
-    CandidateQuestion,
-    GroupQuestion,
     HullPlace,
     Reason,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
 )
+from meshforge.signoff.question import QuestionKind
 from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.learning.results import view_assessment
 from tests.studio_project import demo_project
@@ -64,8 +63,9 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
     hull = mesh.hulls[2].name
     choices = (ReviewChoice("a", "Is(leg)", select=(hull,)), ReviewChoice("right", "right"))
     state = ReviewState({ONE: mesh}, Program())
-    for kind in (GroupQuestion, CandidateQuestion):
-        question = kind("?", 4.0, 1.2, ONE, 1, (HullPlace(ONE, hull),), choices, "q")
+    kinds: tuple[QuestionKind, ...] = ("group", "candidate")
+    for kind in kinds:
+        question = ReviewQuestion(kind, "?", 4.0, 1.2, ONE, 1, (HullPlace(ONE, hull),), choices, "q")
         asked = view_assessment(assessment_of(question), state).question
         assert asked and asked.kind == question.kind
         assert [(one.hull, one.place) for one in asked.hulls] == [(hull, 2)]

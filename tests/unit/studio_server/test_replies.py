@@ -17,13 +17,7 @@ from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
     Assessment,
-    CandidateQuestion,
-    GroupQuestion,
     HullPlace,
-    MistakeQuestion,
-    OrientationQuestion,
-    RepairQuestion,
-    ResultQuestion,
     ReviewChoice,
     ReviewQuestion,
     ReviewReply,
@@ -47,12 +41,14 @@ TURN = Program.parse("orient +Z: Is(leg) -> Is(top)\n").orient
 TURNS = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes", orient=TURN))
 MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
 ASKED: dict[str, ReviewQuestion] = {
-    "group": GroupQuestion("?", 4.0, 1.2, THIRD, None, (LEG, OTHER_LEG), LEG_OR_TOP, "group-1"),
-    "repair": RepairQuestion("?", 3.0, 1.0, THIRD, 2, (CRUMB,), MISC_OR_LEG, "repair-1"),
-    "candidate": CandidateQuestion("?", 4.0, 1.0, THIRD, 1, (), READINGS, "reading-1"),
-    "selection": MistakeQuestion("?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"),
-    "orientation": OrientationQuestion("?", 3.0, 1.0, FIRST, choices=TURNS, id="orientation-1"),
-    "result": ResultQuestion("?", 3.0, 1.0, THIRD, choices=JUDGE, id="result-1"),
+    "group": ReviewQuestion("group", "?", 4.0, 1.2, THIRD, None, (LEG, OTHER_LEG), LEG_OR_TOP, "group-1"),
+    "repair": ReviewQuestion("repair", "?", 3.0, 1.0, THIRD, 2, (CRUMB,), MISC_OR_LEG, "repair-1"),
+    "candidate": ReviewQuestion("candidate", "?", 4.0, 1.0, THIRD, 1, (), READINGS, "reading-1"),
+    "selection": ReviewQuestion(
+        "selection", "?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"
+    ),
+    "orientation": ReviewQuestion("orientation", "?", 3.0, 1.0, FIRST, choices=TURNS, id="orientation-1"),
+    "result": ReviewQuestion("result", "?", 3.0, 1.0, THIRD, choices=JUDGE, id="result-1"),
 }
 
 REPLIES: dict[str, tuple[str, dict[str, Any], str]] = {

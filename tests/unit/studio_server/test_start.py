@@ -21,8 +21,7 @@ from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.start import folders
 from meshforge.studio.start.building import build_project, clean_up
-from meshforge.studio.start.page import StartPage
-from meshforge.studio.start.recent import RecentProjects, state_folder
+from meshforge.studio.start.page import RecentProjects, StartPage, state_folder
 from meshforge.studio.wire.start import ProjectOfFamily, ProjectOfFolder, ProjectOfUpload
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import boxes, write_bare_stool, write_stool

@@ -8,10 +8,9 @@ import pytest
 
 from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelFix
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 

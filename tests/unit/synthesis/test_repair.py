@@ -10,9 +10,8 @@ import pytest
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, parse_extractor, select_mask, show
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
-from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.demonstration import Example, LabelFix
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.synthesis_boxes import boxes, table

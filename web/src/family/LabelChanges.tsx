@@ -34,7 +34,7 @@ export function LabelChanges() {
 }
 
 function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
-  const { newly_sure: settled, way } = relabelled;
+  const { way } = relabelled;
   const unsure = useProject((state) => labelProgress(state.cards).unsure);
   useEffect(() => clearLabelChanges, []);
   return (
@@ -42,7 +42,6 @@ function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
       <b>{TITLES[way]}</b>
       <ChangeButton relabelled={relabelled} sort="new" />
       <ChangeButton relabelled={relabelled} sort="changed" />
-      {settled > 0 && <span className={css.count}>{settled.toLocaleString("en-GB")} now sure</span>}
       <span className={css.count}>{unsure ? `${unsure.toLocaleString("en-GB")} unsure` : "none unsure"}</span>
       <span className={css.buttons}>
         <Button look="quiet" icon={Undo2} onClick={() => void undo()} tip="Undo all changes" keys="Ctrl+Z">

@@ -15,7 +15,6 @@ import { initialWorkspace, useWorkspace } from "./workspace";
 
 const found: LabelUpdate = {
   way: "propagate",
-  newly_sure: 0,
   assets: [
     { asset: "a", new: [0, 1], changed: [], was: [] },
     { asset: "c", new: [2], changed: [0], was: ["leg"] },

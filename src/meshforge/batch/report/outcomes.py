@@ -7,9 +7,9 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.engine_load import examine_file
+from meshforge.batch.check import examine_file
 from meshforge.batch.execution import execute
-from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RuleEffect, RunSummary, status_of
+from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RuleEffect, RunSummary
 from meshforge.batch.provenance import read_stamp
 from meshforge.batch.report.contents import READ_TIMEOUT, MeshReader, ReportAsset, read_again
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
@@ -82,7 +82,7 @@ def compare_outcomes(
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, _describe(line)) for line in outcome.rules)
         alarms_of = (alarms or {}).get(name, ())
-        yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked, alarms_of)
+        yield ReportAsset(name, was, now, trace, outcome.status, None, is_shown, notes, checked, alarms_of)
 
 
 def _describe(line: RuleEffect) -> str | None:

@@ -1,7 +1,5 @@
 """Every change that a person can make in the studio, one class each: what it does and which files it touches."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

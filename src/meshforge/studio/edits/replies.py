@@ -9,7 +9,6 @@ from typing import Literal, assert_never
 
 from pydantic import Field
 
-from meshforge import signoff
 from meshforge.common import pluralize
 from meshforge.project import Project, has_agreed_labels
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, question_of
@@ -62,22 +61,22 @@ class ReplyToQuestion(Edit):
         if self._is_put_off:
             return "question snoozed"
         question, choice, asset = self._asked, self._choice, self._asked.asset
-        match question:
-            case signoff.CandidateQuestion():
+        match question.kind:
+            case "candidate" | "label":
                 return f"rule {question.rule} on {asset} answered"
-            case signoff.MistakeQuestion() if not self._labels:
+            case "selection" if not self._labels:
                 return f"what rule {question.rule} selects on {asset} corrected"
-            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.MistakeQuestion():
+            case "group" | "repair" | "selection":
                 counts = Counter(self._labels.values()).items()
                 return ", ".join(f"{pluralize(count, 'hull')} labelled {label}" for label, count in counts)
-            case signoff.ResultQuestion():
+            case "result":
                 return f"result of {asset}: {choice.text if choice else 'none'}"
-            case signoff.OrientationQuestion():
+            case "orientation":
                 return "assets are turned first"
-            case signoff.DemonstrationQuestion():
+            case "demonstrate":
                 return "question snoozed"
             case _:
-                assert_never(question)
+                assert_never(question.kind)
 
     @cached_property
     def _asked(self) -> ReviewQuestion:
@@ -111,8 +110,8 @@ class ReplyToQuestion(Edit):
 
     @property
     def _is_put_off(self) -> bool:
-        if self.later or isinstance(self._asked, signoff.DemonstrationQuestion):
+        if self.later or self._asked.kind == "demonstrate":
             return True
-        if isinstance(self._asked, signoff.MistakeQuestion | signoff.OrientationQuestion):
+        if self._asked.kind in ("selection", "orientation"):
             return self.choice is None or self.choice == NO
-        return self.choice is None and not self._labels and not isinstance(self._asked, signoff.CandidateQuestion)
+        return self.choice is None and not self._labels and self._asked.kind not in ("candidate", "label")

@@ -77,7 +77,7 @@ def _apply_line(outcome: batch.AssetOutcome, notes: Mapping[str, tuple[str, ...]
         return JobLine(asset=outcome.asset, status="failed", text=outcome.error, before=before)
     more = (note for note in outcome.notes if note not in before)
     parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *more, *outcome.flags]
-    return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts), before=before)
+    return JobLine(asset=outcome.asset, status=outcome.status, text="; ".join(parts), before=before)
 
 
 def prepare_new(

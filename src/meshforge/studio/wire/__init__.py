@@ -1,7 +1,5 @@
 """The messages between server and page: the types of both sides come from here. `Wire` is their base."""
 
-from __future__ import annotations
-
 from pydantic import BaseModel, ConfigDict
 
 

@@ -129,12 +129,10 @@ class AssetLabelUpdate(Wire):
 
 
 class LabelUpdate(Wire):
-    """What the last edit did, if it changed the labels of all assets. way: its kind; newly_sure: how many
-    labels it made sure."""
+    """What the last edit did, if it changed the labels of all assets. way: its kind."""
 
     way: LabelEditKind
     assets: tuple[AssetLabelUpdate, ...]
-    newly_sure: int = 0
 
 
 class Model(Wire):

@@ -11,11 +11,10 @@ from types import MappingProxyType
 
 from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
-from meshforge.synthesis.demonstration import Example, LabelChange, to_fix
+from meshforge.synthesis.demonstration import Example, LabelChange, LabelFix, to_fix
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.paper import partial as partials
 from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, Open, Worklist
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchEffort, SearchResult, Unfinished
 
 

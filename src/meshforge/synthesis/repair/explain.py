@@ -12,10 +12,9 @@ from math import exp, log, prod
 from meshforge.label_model import LabelBeliefs, is_human
 from meshforge.language import Extractor, size_of
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_fix
+from meshforge.synthesis.demonstration import Example, LabelChange, LabelFix, Repair, name_demonstrations, to_fix
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithFixes
-from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses as candidate_search
 from meshforge.synthesis.repair.hypotheses import (
     NO_EXTRACTOR_COST,

@@ -19,10 +19,9 @@ from meshforge.geometry import Floats
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
 from meshforge.language import Extractor, Orient, find_rotation, size_of
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.demonstration import name_demonstrations
+from meshforge.synthesis.demonstration import LabelFix, Repair, name_demonstrations
 from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
-from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses
 from meshforge.synthesis.repair.hypotheses import key_cost, list_evidence
 from meshforge.synthesis.search.terms import order_key

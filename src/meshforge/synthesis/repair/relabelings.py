@@ -9,9 +9,8 @@ from math import exp
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import Extractor, HullTable
 from meshforge.symbolic import Label, mask_of
-from meshforge.synthesis.demonstration import Example, LabelChange
+from meshforge.synthesis.demonstration import Example, LabelChange, LabelFix
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.observation_table import HullGroups
 from meshforge.synthesis.search.terms import enumerate_leaves
 
