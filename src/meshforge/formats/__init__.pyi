@@ -11,8 +11,8 @@ from meshforge.formats.base import Loss as Loss
 from meshforge.formats.base import Mass as Mass
 from meshforge.formats.base import Output as Output
 from meshforge.formats.base import ReadOptions as ReadOptions
-from meshforge.formats.engine_names.conventions import EngineName as EngineName
-from meshforge.formats.engine_names.conventions import MarkName as MarkName
+from meshforge.formats.engine_names import EngineName as EngineName
+from meshforge.formats.engine_names import MarkName as MarkName
 from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
 from meshforge.formats.mesh_input import decompose as decompose
 from meshforge.formats.mesh_input import from_trimesh as from_trimesh

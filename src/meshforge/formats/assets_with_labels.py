@@ -11,7 +11,7 @@ from typing import Any
 from meshforge import symbolic
 from meshforge.common import AssetError, expand_glob
 from meshforge.formats.base import Collision
-from meshforge.formats.engine_names.conventions import MarkName
+from meshforge.formats.engine_names import MarkName
 from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import FORMATS_BY_SUFFIX, Source, all_suffixes, is_asset, path_of, read
 from meshforge.symbolic import Label, SymbolicMesh, write_labels

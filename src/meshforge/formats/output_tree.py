@@ -16,7 +16,7 @@ from meshforge.common import AssetError, plain_path, replace_atomically, write_a
 from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
-from meshforge.formats.engine_names.conventions import MarkName
+from meshforge.formats.engine_names import MarkName
 from meshforge.formats.registry import SUFFIXES, folder_format, format_for, format_named, format_with_names, load_format
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh

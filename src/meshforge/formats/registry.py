@@ -21,7 +21,7 @@ from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.segmentation.reader import is_segmentation
 
 if TYPE_CHECKING:
-    from meshforge.formats.engine_names.conventions import MarkName
+    from meshforge.formats.engine_names import MarkName
     from meshforge.formats.plain.folder import FolderFormat
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix

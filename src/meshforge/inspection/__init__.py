@@ -6,5 +6,5 @@ from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
     __name__,
-    {"decomposition": "advise_decomposition", "difference": "Difference diff", "look": "check render"},
+    {"decomposition": "advise_decomposition", "look": "Difference check diff render"},
 )

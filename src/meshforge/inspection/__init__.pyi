@@ -1,6 +1,6 @@
 # Written by `python -m script.stubs`.
 from meshforge.inspection.decomposition import advise_decomposition as advise_decomposition
-from meshforge.inspection.difference import Difference as Difference
-from meshforge.inspection.difference import diff as diff
+from meshforge.inspection.look import Difference as Difference
 from meshforge.inspection.look import check as check
+from meshforge.inspection.look import diff as diff
 from meshforge.inspection.look import render as render
