@@ -146,8 +146,7 @@ class ElementMaker(ABC):
 class ElementEdits:
     """The collision elements of the output.
 
-    places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
-    no collision element.
+    places: each authored element, with what stands in its place; ends: what is added to a link without collisions.
     """
 
     def __init__(
@@ -269,8 +268,7 @@ def assign_names(outputs: Sequence[OutputElement], *, unique: bool = False) -> d
 
     unique: whether a name that MeshForge made up is left out where another element of the file has it, as some engines
     want names unique in the file. Returns the names that cannot be had all the same, with what they read back as: a
-    hull of a format whose names do not begin with the body, or an element that its author called like a piece of
-    another.
+    hull of a format whose names do not begin with the body, or an element with the name of a piece of another.
     """
     for _ in range(4):
         for output, _names in _find_misread(outputs):

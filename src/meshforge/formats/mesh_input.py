@@ -26,8 +26,7 @@ WHERE = "trimesh"
 _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
 
 DecomposeBy = Literal["whole", "parts", "labels"]
-"""Whether a surface is decomposed at once, or each of its parts by itself: those that its file names, or those that
-segmented points say."""
+"""Whether a surface is decomposed at once, or each part by itself: as its file names them, or segmented points say."""
 
 
 @runtime_checkable

@@ -1,5 +1,4 @@
-"""Shapes inside a convex hull: the largest box, cylinder, capsule and sphere there, and the hull with all its planes
-moved inwards."""
+"""Shapes inside a convex hull: the largest box, cylinder, capsule and sphere, the hull with planes moved inwards."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> Primiti
 
 
 def shrink(shape: Shape, distance: float, name: str) -> Shape:
-    """Return a shape with its surface moved inwards by a distance [m]: planes, radii, and the semi-axes of an
-    ellipsoid.
+    """Return a shape with its surface moved inwards by a distance [m]: planes, radii, semi-axes of an ellipsoid.
 
     Raises GeometryError naming the hull where nothing is left.
     """

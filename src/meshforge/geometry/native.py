@@ -27,8 +27,7 @@ _ROUNDING = 1e-13  # relative, of squares: what is this near the wall touches it
 def native_cylinder(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Cylinder:
     """Return the cylinder along an axis, as long as that side of `bounds`, of the least radius around the shapes.
 
-    bounds: the box around them all; axis: that of its longest side by default. Raises GeometryError where a side of it
-    has no extent; so do the others here.
+    bounds: the box around all; axis: by default of its longest side. These raise GeometryError: a side has no extent.
     """
     axis = choose_axis(bounds, axis)
     pose, parts = _split_shapes(shapes, bounds, axis)
@@ -48,8 +47,7 @@ def find_cylinder_axis(shapes: Sequence[Shape], bounds: Aabb) -> int:
 
 
 def native_capsule(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Capsule | Sphere:
-    """Return the capsule along an axis, the default as above, around the shapes: of the least radius, then the
-    shortest.
+    """Return the capsule along an axis, the default as above, around shapes: of the least radius, then shortest.
 
     A sphere where no straight part is needed.
     """

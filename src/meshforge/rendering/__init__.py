@@ -1,5 +1,4 @@
-"""Pictures of symbolic meshes for labelling, reports, thumbnails and terminals: rays and arithmetic, no display
-needed."""
+"""Pictures of symbolic meshes for labelling, reports, thumbnails, terminals: rays and arithmetic, without a display."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Pictures of an edit, before and after under one camera; and of measurements: surfaces in bands of colour, and
-parts of space within pale hulls."""
+"""Pictures of an edit, before and after; of measurements: bands of colour, space within pale hulls; and turntables."""
 
 from __future__ import annotations
 
@@ -78,13 +77,11 @@ def _count_hulls(before: SymbolicMesh, after: SymbolicMesh) -> tuple[str, str]:
 def draw_changes(
     before: SymbolicMesh, after: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (640, 480)
 ) -> Image:
-    """Return both pictures side by side, each of `size`, under one camera: what an edit changed is marked, the rest as
-    it was.
+    """Return both pictures side by side, each of `size`, under one camera: what an edit changed is marked.
 
     Hulls that only one of them has are removed or made; changed are those of both that have another shape. These have a
     colour and an outline of their own, all but the made ones stripes, and a legend below says what each is. All others
-    have in both pictures the colours that `render` gives them in the first: by label where there are labels, else by
-    hull.
+    have in both pictures the colours that `render` gives them in the first: by label if there are labels, else by hull.
     """
     color_by: ColorBy = "label" if before.labels or after.labels else "hull"
     labels = [{hull.label for hull in mesh.hulls if hull.label} for mesh in (before, after)]
@@ -177,8 +174,7 @@ def draw_heat_map(
 ) -> Image:
     """Return things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
-    most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up; unit: of
-    the legend.
+    most: where the last band begins [m], the first is a quarter as wide; mesh: says what is up; unit: of the legend.
     """
     edges: Floats = np.maximum(most, 1e-9) * np.array([0.25, 0.4, 0.6, 0.8, 1.0])  # after the first band
     colors = np.array([rgb(color) for color in BANDS])

@@ -76,8 +76,7 @@ def _widen(found: LineStrengths, by: int) -> LineStrengths:
 
 
 def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: int) -> tuple[Floats32, Ints]:
-    """Return a drawing of the camera's size: pixels (h, w, 4), premultiplied, in 0..1, and items (h, w), the solid
-    things seen, -1 for none.
+    """Return a drawing: pixels (h, w, 4), premultiplied, in 0..1, and items (h, w), the solid things seen, -1 for none.
 
     layers: a solid one, then shells; fine: how many times as many rays there are along each side.
     """

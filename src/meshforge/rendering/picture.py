@@ -188,8 +188,7 @@ def render_meshes_of(hulls: Sequence[Hull]) -> list[RenderMesh]:
 
 
 def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[RenderMesh]) -> Floats:
-    """Return the points (n, 3) [m] that a picture of hulls must hold, and of what lies around them unless it is far
-    larger."""
+    """Return the points (n, 3) [m] that a picture of hulls must hold, and of what lies around unless far larger."""
     points = [s.vertices for s in render_meshes]
     size = Aabb.of_points(np.concatenate(points)).diagonal if points else np.inf
     points += [s.vertices for s in shells if Aabb.of_points(s.vertices).diagonal <= _FAR_OUT * size]
@@ -205,8 +204,7 @@ DrawnView = tuple[Ints, tuple[int, int]]
 
 
 def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[str], colors: Floats) -> Image:
-    """Return the picture with the names of hulls on it, or with their numbers, which count from 0 in the order of
-    `names`.
+    """Return the picture with the names of hulls on it, or their numbers, from 0 in the order of `names`.
 
     Numbers stand there where the names would not fit; a legend below the picture then has the name of each. Hulls that
     are hidden, or too small for a text, in all views are listed there in any case. colors: (n, 3), of the hulls.
@@ -232,8 +230,7 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
 
 
 def place_texts(items: Ints, texts: Mapping[int, str], size: tuple[int, int]) -> list[NumberPlace]:
-    """Return where texts go in a drawing, none over another; items: (h, w), what each pixel shows; size: of the
-    picture."""
+    """Return where texts go in a drawing, none over another; items: (h, w), what pixels show; size: of the picture."""
     u = text_scale(size)
     heights = [max(11, round(share * u)) for share in (14, 11)]
     sizes: dict[int, dict[int, TextSize]] = {

@@ -89,8 +89,7 @@ def cast_layer(layer: DrawLayer, frame: ViewFrame, camera: Camera) -> RayHits:
 
 
 def cast_rays(whole: RayScene, camera: Camera, window: tuple[slice, slice] | None = None) -> RayHits:
-    """Return the first thing of an assembled scene behind each pixel; window: the columns and rows to look in, by
-    default those that it can be seen in."""
+    """Return the first thing of an assembled scene behind each pixel; window: columns and rows, or all."""
     scene = prepare_for_rays(whole, camera.axes[2]) if whole.embree is None else whole
     width, height = camera.size
     triangle = np.full((height, width), -1, np.int64)

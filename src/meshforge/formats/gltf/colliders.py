@@ -1,5 +1,4 @@
-"""The collision geometry of a scene: the convention that its file keeps to, the nodes that collide by it, and their
-pieces."""
+"""The collision geometry of a scene: the convention of its file, the nodes that collide by it, and their pieces."""
 
 from __future__ import annotations
 

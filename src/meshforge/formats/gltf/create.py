@@ -36,8 +36,7 @@ _JOINT = "join the bodies in Godot, by a HingeJoint3D, SliderJoint3D, PinJoint3D
 def create_gltf(asset: Asset, name: str) -> Output:
     """Return the files of an asset that came from another format.
 
-    Colliders of KHR_physics_rigid_bodies hold bodies and native shapes; where the asset shows nothing, a mesh on each
-    collider's node shows that.
+    Colliders of KHR_physics_rigid_bodies hold bodies and native shapes, shown by meshes where the asset shows nothing.
     """
     path = PurePosixPath(name)
     bodies = [body for body in asset.bodies if body.name != BODY]  # which all formats without bodies have
@@ -164,8 +163,7 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
 def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:
     """Add what Godot's importer (modules/gltf/extensions/physics) takes of bodies; notes, and pieces that it does not.
 
-    It joins shapes to the body right above them, lets a body's own mesh go, and takes moments of inertia about the axes
-    of the body only.
+    It joins shapes to the body right above, lets a body's own mesh go, and takes inertias about the body's axes only.
     """
     style, names = PhysicsStyle(draft, "omi"), engine_names.GodotBodyNames()
     taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()

@@ -132,8 +132,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
 def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: CollisionNames | None) -> Output:
     """Return the files of a scene with the hulls of an asset beside it, as colliders of KHR_physics_rigid_bodies.
 
-    engine: by whose names they collide instead. Raises AssetError: a buffer changed since the asset was read, or there
-    is no hull to write.
+    engine: by whose names they collide instead. Raises AssetError: a buffer changed since, or there is no hull.
     """
     marked = GltfDocument(b"", engine.engine if engine else "khr", (), document.bodies)
     lost: list[NonConvexPiece] = []
@@ -239,8 +238,7 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
 
 
 def lose_non_convex(engine: CollisionNames, pieces: Sequence[NonConvexPiece], *, is_seen: bool) -> base.Loss:
-    """Return the loss of non-convex pieces of which an engine takes none; is_seen: whether they are there to be
-    seen."""
+    """Return the loss of non-convex pieces, of which an engine takes none; is_seen: whether they are shown."""
     why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
     names = tuple(piece.name for piece in pieces)
     return base.Loss(FeatureKind.NON_CONVEX, names, why, "written to be seen alone" if is_seen else None)

@@ -1,5 +1,4 @@
-"""The format glTF as the registry has it, with a variant for each engine that knows collision by name; what a file
-can hold, and what one holds besides hulls."""
+"""The format glTF for the registry, with variants for engines that know names; what files hold besides hulls."""
 
 from __future__ import annotations
 

@@ -40,8 +40,7 @@ class Container:
 
     @staticmethod
     def of(data: bytes) -> Container:
-        """Return the container in the bytes of a file. Raises ValueError: a GLB that is damaged, or not of version
-        2."""
+        """Return the container in the bytes of a file. Raises ValueError: a damaged GLB, or not of version 2."""
         if data[:4] != MAGIC:
             return Container(data)
         if len(data) < _HEADER + 8:
@@ -144,8 +143,7 @@ def report_damage(where: str) -> Iterator[None]:
 
 
 def parse_json(text: bytes) -> Json:
-    """Return the JSON of a file, `?` for each half of a character in it. Raises ValueError: none, or another
-    version."""
+    """Return the JSON of a file, `?` for half characters in it. Raises ValueError: none, or another version."""
     plain = text.decode("utf-8-sig").rstrip("\0")
     tree = json.loads(plain, parse_constant=_refuse_constant)
     if _SURROGATE.search(plain):

@@ -73,8 +73,7 @@ class Buffers:
         return data[start : start + length]
 
     def buffer(self, index: Any) -> bytes:
-        """Return the bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it
-        says."""
+        """Return the bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is too short."""
         if index not in self._loaded:
             buffer = entry(self.tree, "buffers", index)
             data = self._fetch(buffer, index)

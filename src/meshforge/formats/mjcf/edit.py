@@ -28,8 +28,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     """Return the files of an asset that was read from an MJCF; without an edit, their own bytes.
 
     MuJoCo compiles what is written, and finds what it found before but for the edited geoms.
-    Raises AssetError: a hull that cannot be removed or made, a reference to a geom that goes, a file that MuJoCo
-    refuses.
+    Raises AssetError: a hull cannot be removed or made, a geom that goes is referred to, MuJoCo refuses a file.
     """
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
@@ -160,8 +159,7 @@ class MjcfEdit:
     def _find_difference(self, after: MjcfModel) -> str:
         """What MuJoCo finds otherwise than the edit says, empty where all is right.
 
-        Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are
-        these.
+        Elements refer to geoms by names, and other elements are as they were: right where the names are.
         """
         if after.model.ngeom != len(self.geoms.geoms):
             return f"{after.model.ngeom} geoms where {len(self.geoms.geoms)} were expected"

@@ -1,5 +1,4 @@
-"""A folder of mesh files as one asset: one body, the pieces of all files its hulls, named after the files; and the
-files of such a folder when it is written."""
+"""A folder of mesh files as one asset, read and written: one body, the pieces of its files its hulls, named so."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Wavefront OBJ: each connected convex piece of a group is a hull; of authored text an edit changes vertex numbers and
-group lines only."""
+"""Wavefront OBJ: each connected convex piece of a group is a hull; edits change vertex numbers and group lines only."""
 
 from __future__ import annotations
 

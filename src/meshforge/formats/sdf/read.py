@@ -34,8 +34,7 @@ _NO_HULLS = {
 def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     """Return the asset in an SDF file with all that it includes; the root frame is that of the world around the model.
 
-    Raises AssetError naming file, line, link and element: text that is not understood, a frame, an included model or a
-    collision mesh that is not there.
+    Raises AssetError naming file, line, link and element: text not understood, a missing frame, model or mesh.
     """
     tree = models.read_models(plain_path(path), tuple(map(plain_path, options.package_roots)))
     reader, links = _SdfReader(tree), tree.links

@@ -1,5 +1,4 @@
-"""The parts of a surface by segmented points, which are turned, scaled and moved into its frame: the class of each
-triangle, and each connected patch of a class."""
+"""The parts of a surface by segmented points, brought into its frame: each connected patch of triangles of a class."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Points with a class each, as segmentations (Find3D) and datasets (PartNet) give them: where their files lie beside an
-asset, and what they hold."""
+"""Points with a class each, as segmentations (Find3D) and datasets (PartNet) have them in files beside an asset."""
 
 from __future__ import annotations
 
@@ -41,8 +40,7 @@ class Segmentation:
     names: tuple[str, ...] = ()
 
     def class_names(self, given: Sequence[str] = ()) -> Mapping[int, str]:
-        """Return the names of classes by their number: those given, of 0, 1, ..., else the file's; an empty one is
-        none."""
+        """Return the names of classes by number: those given, of 0, 1, ..., else the file's; an empty one is none."""
         return {k: name for k, name in enumerate(given or self.names) if name}
 
 

@@ -1,5 +1,4 @@
-"""Writing an edited USD file: the authored bytes where nothing changed, else its root layer with the edit, in which
-bodies keep their masses."""
+"""Writing an edited USD file: its bytes where nothing changed, else the edited root layer, masses of bodies kept."""
 
 from __future__ import annotations
 

@@ -29,8 +29,7 @@ _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
 def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) -> Mechanism:
-    """Return joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left
-    out."""
+    """Return joints, masses, pairs apart; joints that close a loop, or of kinds that no tree has, are left out."""
     if not bodies.prims:
         return Mechanism()
     hulls: dict[str, list[Shape]] = {name: [] for name in (BODY, *bodies.names.values())}

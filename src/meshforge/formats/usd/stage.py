@@ -143,8 +143,7 @@ class PrimRecord:
 class UsdDocument(Document):
     """The source of an asset read from a USD file.
 
-    source: the bytes of the file; physics: whether prims say that they collide, else all meshes count;
-    digests: of the layers besides the root layer.
+    source: the bytes; physics: whether prims say that they collide, else all meshes do; digests: of the other layers.
     """
 
     source: bytes

@@ -202,8 +202,7 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
 
 
 def _supervise(command: list[str], log: Path, control: EngineControl, started: float) -> int:
-    """The exit code of a command, which is killed when it is cancelled or time is up; log: a file for its errors;
-    started: when that began."""
+    """The exit code of a command, killed when cancelled or out of time since `started`; log: a file for its errors."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
     if parent_process() is not None:  # one of several workers, which share the processors; results are the same
         environment.setdefault("OMP_NUM_THREADS", "1")

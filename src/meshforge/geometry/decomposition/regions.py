@@ -1,5 +1,4 @@
-"""Regions of a surface between its concave edges, each mostly of one part or of one side of a part; and the fine pieces
-that are of each."""
+"""Regions of a surface between its concave edges, each mostly of one part or side; and the fine pieces of each."""
 
 from __future__ import annotations
 
@@ -63,8 +62,7 @@ class FinePiece:
 
 
 def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
-    """Return the connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it
-    is in."""
+    """Return the connected components of faces (m, 3), as the places of their faces, a cavity with its solid."""
     own, volumes, closed = _list_components(vertices, faces)
     found = {number: [places] for number, places in enumerate(own)}
     for number in closed:
@@ -115,8 +113,7 @@ def _corners_of(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
 
 
 def number_pieces(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[FinePiece, ...]:
-    """Return pieces with the region that has most of the surface at each, and its solid; region by region, in the order
-    in which these first come."""
+    """Return pieces with the region that has most of the surface at each, and its solid; by region, first come."""
     from scipy.spatial import cKDTree  # lazy: 0.5 s, half of all imports
 
     faces = drop_degenerate(vertices, faces)

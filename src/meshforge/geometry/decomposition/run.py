@@ -139,8 +139,7 @@ def _make_hulls(
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Return where results are usually kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else
-    `~/.cache/meshforge`."""
+    """Return where results are kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else `~/.cache/meshforge`."""
     if own := environment.get("MESHFORGE_CACHE"):
         return Path(own)
     base = environment.get("XDG_CACHE_HOME")

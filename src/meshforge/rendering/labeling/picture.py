@@ -1,5 +1,4 @@
-"""One labelling picture, drawn: the numbered one, and the plain one under the same camera; lit surfaces and dark lines,
-without shadows, so that it is quick."""
+"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines, no shadows, for speed."""
 
 from __future__ import annotations
 

@@ -157,8 +157,7 @@ class Arrangement:
         return cast_rays(scene, camera) if len(scene.corners) else None
 
     def cast_visual(self, camera: Camera) -> RayHits | None:
-        """Return what the pixels show of the visual mesh; None where there is none, and where some hulls are drawn
-        alone: what is around them would hide all."""
+        """Return what pixels show of the visual mesh; None without one, and where it would hide hulls drawn alone."""
         if len(self.solid) < len(self.subject.render_meshes) or not self.subject.visuals[0]:
             return None
         return cast_rays(self._visual_scene, camera)
