@@ -216,11 +216,8 @@ def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
     """Raise AssetError for a hull on a link that is not there."""
     if geom.body not in links:
         like = nearest_name(geom.body, links)
-        raise AssetError(
-            f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
-            where=where,
-            remedy=f"The nearest name of a link is {like!r}." if like else None,
-        )
+        problem = f"hull {geom.name!r} is on link {geom.body!r}, which is not there"
+        raise AssetError(problem, where=where, remedy=f"The nearest name of a link is {like!r}." if like else None)
 
 
 def replace_element(data: bytes, element: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:

@@ -185,22 +185,18 @@ def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: boo
         if target.resolve() in inputs:
             raise AssetError("this file belongs to the input", where=str(target), remedy="Write to another folder.")
         if not overwrite:
-            raise AssetError(
-                "there is such a file already, with other content",
-                where=str(target),
-                remedy="Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere.",
-            )
+            problem = "there is such a file already, with other content"
+            remedy = "Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere."
+            raise AssetError(problem, where=str(target), remedy=remedy)
 
 
 def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Path]:
     """Mesh files in a folder that are not of the asset which is written there; they would count as its hulls."""
     found = [path for path in folder_format().mesh_files(out) if path not in plan] if out.is_dir() else []
     if found and not overwrite:
-        raise AssetError(
-            f"this folder has other mesh files in it, such as {found[0].name}",
-            where=str(out),
-            remedy="Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True).",
-        )
+        problem = f"this folder has other mesh files in it, such as {found[0].name}"
+        remedy = "Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True)."
+        raise AssetError(problem, where=str(out), remedy=remedy)
     return found
 
 

@@ -53,10 +53,8 @@ def shrink(shape: Shape, distance: float, name: str) -> Shape:
     planes = None if sizes else _InnerPlanes(shape.tessellate())
     least = planes.inscribe_ball()[1] if planes else min(np.min(size) for size in sizes.values())
     if distance >= least * (1 - SAME_LENGTH):
-        raise GeometryError(
-            f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most",
-            remedy="Give a smaller distance, or leave this hull out of the selection.",
-        )
+        problem = f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most"
+        raise GeometryError(problem, remedy="Give a smaller distance, or leave this hull out of the selection.")
     if planes:
         return planes.move_inwards(distance, name)
     primitive: Any = shape

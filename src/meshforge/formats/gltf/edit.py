@@ -75,11 +75,9 @@ def _edit_draft(
         holder = draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
         style.add(NewPiece(geom, _own_name(geom, document), holder, parent))
     if not draft.expected:
-        raise AssetError(
-            "the edit leaves no collision in this file",
-            where=str(path),
-            remedy="Leave one hull: without any, all its meshes would be taken for collision.",
-        )
+        problem = "the edit leaves no collision in this file"
+        remedy = "Leave one hull: without any, all its meshes would be taken for collision."
+        raise AssetError(problem, where=str(path), remedy=remedy)
     return assign_names(draft, document, renames=style.renames)
 
 

@@ -101,11 +101,9 @@ class Buffers:
             return self._file(uri).read_bytes()
         except OSError as error:
             why = "is not there" if isinstance(error, FileNotFoundError) else f"cannot be read: {error.strerror}"
-            raise AssetError(
-                f"its buffer {uri[:100]} {why}",
-                where=str(self.path),
-                remedy="Put it there, or export the model as one .glb.",
-            ) from error
+            problem = f"its buffer {uri[:100]} {why}"
+            remedy = "Put it there, or export the model as one .glb."
+            raise AssetError(problem, where=str(self.path), remedy=remedy) from error
 
     def _file(self, uri: str) -> Path:
         """The file of a buffer. Raises OSError: a pipe would be waited for, a device may never end."""
@@ -144,11 +142,9 @@ class Buffers:
         buffers = [b for b in entries(self.tree, "buffers") if isinstance(b, dict)]
         needed += [name for name in _MESHOPT if any(extension(b, name) is not None for b in buffers)]
         if needed:
-            raise AssetError(
-                f"its meshes are compressed by {needed[0]}, which is not read",
-                where=str(self.path),
-                remedy="Export it again without mesh compression (gltfpack: without -c and -cc).",
-            )
+            problem = f"its meshes are compressed by {needed[0]}, which is not read"
+            remedy = "Export it again without mesh compression (gltfpack: without -c and -cc)."
+            raise AssetError(problem, where=str(self.path), remedy=remedy)
 
 
 def decode_data_uri(uri: str) -> bytes:

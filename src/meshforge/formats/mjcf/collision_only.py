@@ -146,11 +146,9 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
         assert node is not None  # it names the file
         called = f"collision geom {first.name!r}" if first.name else "a collision geom"
         others = f" (and {count - 1} more like it)" if count > 1 else ""
-        raise AssetError(
-            f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
-            where=tree.where(node),
-            remedy=references.Resolver(tree.main.path.parent).advice(str(files[first.meshname])),
-        )
+        problem = f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}"
+        remedy = references.Resolver(tree.main.path.parent).advice(str(files[first.meshname]))
+        raise AssetError(problem, where=tree.where(node), remedy=remedy)
     for name in dict.fromkeys(geom.meshname for geom in colliding):
         if name in files and is_file(files[name]):
             mesh_reader.read_content(files[name])

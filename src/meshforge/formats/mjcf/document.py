@@ -170,11 +170,9 @@ class _TreeReader:
             remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
             raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
-            raise AssetError(
-                f"{reference!r} is included twice, or includes itself",
-                where=where,
-                remedy="MuJoCo includes a file at most once; take this <include> away.",
-            )
+            problem = f"{reference!r} is included twice, or includes itself"
+            remedy = "MuJoCo includes a file at most once; take this <include> away."
+            raise AssetError(problem, where=where, remedy=remedy)
         root = self.parse(path, reference)
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")

@@ -230,11 +230,9 @@ def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> Non
     for body in sorted(edited | plan.ends.keys()):
         inertial = plan.links[body].first("inertial")
         if inertial is not None and frames.is_computed(inertial):
-            raise AssetError(
-                f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here",
-                where=where,
-                remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
-            )
+            problem = f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here"
+            remedy = "Leave it to the new collisions (--mass recompute), or say it in the file."
+            raise AssetError(problem, where=where, remedy=remedy)
 
 
 def list_copies(

@@ -109,11 +109,9 @@ def _build_output(
 def _read_files_beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
     for place in copies:
         if place.startswith(".."):
-            raise AssetError(
-                f"it refers to {place}, outside of its folder, which no package can hold",
-                where=str(asset.path),
-                remedy="Write another kind of USD file, or move that file.",
-            )
+            problem = f"it refers to {place}, outside of its folder, which no package can hold"
+            remedy = "Write another kind of USD file, or move that file."
+            raise AssetError(problem, where=str(asset.path), remedy=remedy)
     return {place: path.read_bytes() for place, path in copies.items()}
 
 
