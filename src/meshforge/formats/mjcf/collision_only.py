@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
 from math import isnan
+from pathlib import Path
 from typing import Literal
 
 from meshforge.common import AssetError, is_file
@@ -15,30 +17,7 @@ from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
 
-_ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
-_NEEDED = {
-    "mujoco": "model",
-    "compiler": "angle eulerseq coordinate meshdir assetdir strippath fitaabb autolimits inertiafromgeom"
-    " inertiagrouprange",
-    "default": "class",
-    "asset": "",
-    "mesh": "name class file content_type vertex face normal texcoord refpos refquat scale maxhullvert inertia builtin"
-    " params smoothnormal",
-    "hfield": "name file content_type nrow ncol size elevation",
-    "model": "name file content_type",
-    "worldbody": "",
-    "body": f"name childclass mocap {_ORIENTATION}",
-    "frame": f"name childclass {_ORIENTATION}",
-    "replicate": "count sep offset euler childclass",
-    "attach": "model body frame prefix",
-    "inertial": f"mass diaginertia fullinertia {_ORIENTATION}",
-    "joint": "name class type pos axis ref range limited damping frictionloss",
-    "freejoint": "name",
-    "geom": f"name class type size fromto mesh hfield fitscale contype conaffinity group mass density shellinertia rgba"
-    f" {_ORIENTATION}",
-    "contact": "",
-    "pair": "geom1 geom2",
-}
+_NEEDED = tomllib.loads(Path(__file__).with_name("collision_elements.toml").read_text(encoding="utf-8"))
 """The elements that collision geometry, masses and joints need, and their attributes."""
 _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
 _FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}

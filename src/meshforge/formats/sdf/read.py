@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, link_reader, references
-from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
+from meshforge.formats.kinematic_tree import COMMON_KINDS, TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.formats.sdf import document, frames, models
 from meshforge.formats.sdf.document import AXIS_IN_JOINT
@@ -168,13 +168,7 @@ def _find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...]
     return tuple(files), tuple(missing)
 
 
-_KINDS: dict[str, JointKind] = {
-    "fixed": "fixed",
-    "revolute": "revolute",
-    "continuous": "revolute",
-    "prismatic": "prismatic",
-    "ball": "ball",
-}
+_KINDS: dict[str, JointKind] = {**COMMON_KINDS, "ball": "ball"}
 _ENDLESS = 1e15  # limits beyond mean none
 _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 

@@ -17,21 +17,12 @@ from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
+_BEST_KNOWN: tuple[View, ...] = (
+    "front-right-above", "front-left-above", "front", "back-left-above", "back-right-above", "top", "right", "left",
+    "back", "bottom", "front-left-below", "front-right-below", "back-left-below", "back-right-below",
+)  # fmt: skip
 VIEW_WORDS: Mapping[View, str] = {
-    "front-right-above": "from the front right, above",
-    "front-left-above": "from the front left, above",
-    "front": "front",
-    "back-left-above": "from the back left, above",
-    "back-right-above": "from the back right, above",
-    "top": "top",
-    "right": "right",
-    "left": "left",
-    "back": "back",
-    "bottom": "bottom",
-    "front-left-below": "from the front left, below",
-    "front-right-below": "from the front right, below",
-    "back-left-below": "from the back left, below",
-    "back-right-below": "from the back right, below",
+    view: "from the {} {}, {}".format(*view.split("-")) if "-" in view else view for view in _BEST_KNOWN
 }
 """What each view is called; those that people know things best by come first."""
 NEUTRAL = rgb("#C9C4BB")
