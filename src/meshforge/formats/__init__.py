@@ -22,8 +22,9 @@ __getattr__, __all__ = export_lazily(
             "format_with_names is_asset is_description list_formats list_marked_formats notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
-        "segmentation.parts": "AlignMode SegmentationFile align_points read_parts",
-        "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",
+        "segmentation": (
+            "POINTS_SUFFIXES AlignMode SegmentationFile align_points points_beside read_parts read_segmentation"
+        ),
         "visuals": "VisualSurfaces",
     },
 )

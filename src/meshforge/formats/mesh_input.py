@@ -18,8 +18,7 @@ from meshforge.formats.assets_with_labels import label_hulls, labels_beside
 from meshforge.formats.meshfile import surface as meshfile
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.formats.plain.base import build_asset
-from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
-from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
+from meshforge.formats.segmentation import POINTS_MARK, SegmentationFile, points_beside, read_parts
 from meshforge.symbolic import Asset, Body, Document, Geom, Label, Surface, SymbolicMesh, unique_names
 
 WHERE = "trimesh"

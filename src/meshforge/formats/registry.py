@@ -18,7 +18,7 @@ from meshforge.common.plugins import Targets, make_target
 from meshforge.formats.base import Format, ReadOptions, SpecObject, StageObject
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.plugin_format import guard_format
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 
 if TYPE_CHECKING:
     from meshforge.formats.engine_names import MarkName
@@ -29,7 +29,7 @@ _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML 
 
 _SUFFIXES = {
     "urdf.format:UrdfFormat": ("urdf",),
-    "urdf.xacro:XacroFormat": ("xacro",),
+    "urdf.format:XacroFormat": ("xacro",),
     "mjcf.format:MjcfFormat": ("xml", "mjcf"),
     "sdf.format:SdfFormat": ("sdf",),
     "gltf.format:GltfFormat": ("glb", "gltf"),

@@ -25,7 +25,7 @@ from meshforge.formats.plain.parts import (
 from meshforge.formats.plain.ply import PlyFormat
 from meshforge.formats.plain.stl import StlFormat, WrlFormat
 from meshforge.formats.references import find_companions
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece
 

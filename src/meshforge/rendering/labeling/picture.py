@@ -14,8 +14,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.rendering.annotation import INK, LabelAnchor, count_pixels, font, shorten, text_width
 from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
-from meshforge.rendering.light import shade
-from meshforge.rendering.paint import BORDER, LineStrengths, trace_lines
+from meshforge.rendering.paint import BORDER, LineStrengths, shade, trace_lines
 from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
 from meshforge.rendering.raycast import RayHits, ViewFrame, find_steps, neighbour_slices
 
