@@ -136,9 +136,7 @@ class UnrealNames(CollisionNames):
     engine: ClassVar[EngineName] = "unreal"
     title: ClassVar[str] = "Unreal"
     holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds - {FeatureKind.NON_CONVEX} | {
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CAPSULES,
+        *(FeatureKind.BOXES, FeatureKind.SPHERES, FeatureKind.CAPSULES)
     }
     shows: ClassVar[bool] = True
     takes_non_convex: ClassVar[bool] = False

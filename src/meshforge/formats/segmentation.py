@@ -257,12 +257,10 @@ def align_points(points: Floats, boxes: Sequence[Aabb], align: AlignMode, where:
     fits = _box_distance(best, boxes) <= _SLACK
     if fits and align == "box":
         return best
-    raise AssetError(
-        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(points))}, "
-        f"the hulls in a box {_describe_box(boxes[0])}",
-        where=where,
-        remedy="They would fit with --align box." if fits else "Export them in the frame of the asset, in metres.",
-    )
+    own, other = _describe_box(Aabb.of_points(points)), _describe_box(boxes[0])
+    problem = f"its points do not lie where the asset does: they are in a box {own}, the hulls in a box {other}"
+    remedy = "They would fit with --align box." if fits else "Export them in the frame of the asset, in metres."
+    raise AssetError(problem, where=where, remedy=remedy)
 
 
 def _fit(points: Floats, boxes: Sequence[Aabb]) -> list[Floats]:

@@ -9,14 +9,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.round_shapes import (
-    Capsule,
-    Cylinder,
-    Ellipsoid,
-    Sphere,
-    tessellate_capsule,
-    unit_cylinder,
-)
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere, tessellate_capsule, unit_cylinder
 from meshforge.geometry.shape import Box, Polytope, Shape
 
 ROUND = 0.01

@@ -5,6 +5,5 @@ from __future__ import annotations
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
-    __name__,
-    {"decomposition": "advise_decomposition", "look": "Difference check diff render"},
+    __name__, {"decomposition": "advise_decomposition", "look": "Difference check diff render"}
 )

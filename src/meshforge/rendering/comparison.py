@@ -59,14 +59,12 @@ def draw_before_after(
     before: SymbolicMesh,
     after: SymbolicMesh,
     *,
-    view: View = "iso",
-    color_by: ColorBy = "label",
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
     up: Up | None = None,
 ) -> Image:
     """Return both pictures side by side, each of `size`, with the number of hulls below each."""
-    pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
+    pair = compare(before, after, size=size, vocabulary=vocabulary, up=up)
     return make_contact_sheet(pair, columns=2, titles=_count_hulls(before, after))
 
 
@@ -232,7 +230,7 @@ def list_turns(frames: int = FRAMES) -> list[float]:
     return [number / frames for number in range(frames)]
 
 
-def encode_gif(frames: Sequence[Image], milliseconds: int = FRAME_MILLISECONDS) -> bytes:
+def encode_gif(frames: Sequence[Image]) -> bytes:
     """Return pictures of equal size as a GIF that begins anew for ever; the same pictures give the same bytes.
 
     Raises UsageError where there is none.
@@ -249,7 +247,7 @@ def encode_gif(frames: Sequence[Image], milliseconds: int = FRAME_MILLISECONDS) 
     palette = sheet.quantize(_COLORS, method=Image.Quantize.MEDIANCUT)  # one for all: none flickers
     first, *others = [image.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE) for image in frames]
     stream = BytesIO()
-    first.save(stream, "GIF", save_all=True, append_images=others, duration=milliseconds, loop=0, optimize=False)
+    first.save(stream, "GIF", save_all=True, append_images=others, duration=FRAME_MILLISECONDS, loop=0, optimize=False)
     return stream.getvalue()
 
 

@@ -90,7 +90,8 @@ def _ground_points(frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints) 
     """Where the rays through pixels meet the ground (n, 3); those that do not, or nearly along it, far away."""
     origins, directions = camera.pixel_rays(columns, rows)
     fall = -(directions @ frame.upright)
-    depth = (origins @ frame.upright - frame.ground_height) / np.where(fall > _FLAT, fall, 1e-9)
+    lowest = float((frame.to_unit(frame.bounds.corners) @ frame.upright).min())
+    depth = (origins @ frame.upright - lowest) / np.where(fall > _FLAT, fall, 1e-9)
     return origins + directions * depth[:, None]
 
 
@@ -254,7 +255,7 @@ def shade_surface(
         return shade(colors, scene.normals[triangle], camera, frame.upright)
     base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     color = shade(base, scene.normals, camera, frame.upright)[triangle]
-    bent = np.nonzero(scene.is_round[triangle])[0]
+    bent = np.flatnonzero(np.isfinite(scene.bent[triangle, 0, 0]))  # on round surfaces
     if len(bent):
         normals = scene.smooth_normals(triangle[bent], hits.points(camera, rows[bent], columns[bent]))
         color[bent] = shade(base[triangle[bent]], normals, camera, frame.upright)

@@ -43,9 +43,7 @@ class NumberPlace:
 
 
 def place_numbers(
-    items: Ints,
-    sizes: Mapping[int, Mapping[int, TextSize]],
-    known: Mapping[int, LabelAnchor] | None = None,
+    items: Ints, sizes: Mapping[int, Mapping[int, TextSize]], known: Mapping[int, LabelAnchor] | None = None
 ) -> list[NumberPlace]:
     """Return places for the numbers of hulls as far as they are seen and fit; none covers another.
 

@@ -53,11 +53,6 @@ class ViewFrame:
     def from_unit(self, points: Floats) -> Floats:
         return points * self.unit + self.bounds.center
 
-    @property
-    def ground_height(self) -> float:
-        """The height of the lowest point."""
-        return float((self.to_unit(self.bounds.corners) @ self.upright).min())
-
 
 def up_vector(up: Up) -> Floats:
     """Return the direction (3,) that points up."""

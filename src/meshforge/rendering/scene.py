@@ -104,11 +104,6 @@ class RayScene:
     bent: Floats
     embree: Any
 
-    @property
-    def is_round(self) -> Any:
-        """Which triangles (m,) belong to a round surface."""
-        return np.isfinite(self.bent[:, 0, 0])
-
     def smooth_normals(self, triangles: Ints, points: Floats) -> Floats:
         """Return the smooth normals at points (n, 3) of round triangles (n,)."""
         a, b, c = (self.corners[triangles, k] for k in range(3))

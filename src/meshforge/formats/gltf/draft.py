@@ -58,11 +58,10 @@ class SceneDraft:
         """
         node = self.node(index)
         if index in self.referred.morphed:
-            raise AssetError(
-                f"an animation drives the morph weights of node {node.get('name') or index!r}, whose mesh would go",
-                where=str(self.scene.path),
-                remedy="Leave the hull as it is, or take the animation out of the file.",
-            )
+            called = node.get("name") or index
+            problem = f"an animation drives the morph weights of node {called!r}, whose mesh would go"
+            remedy = "Leave the hull as it is, or take the animation out of the file."
+            raise AssetError(problem, where=str(self.scene.path), remedy=remedy)
         gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
         if "mesh" in gone:
             mesh = entry(self.scene.tree, "meshes", gone["mesh"])

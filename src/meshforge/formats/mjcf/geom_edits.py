@@ -140,9 +140,8 @@ class GeomEdits:
         parent = self._owner.get(geom.parent or "")
         node = parent.node if parent else None
         if parent is not None and node is None:
-            raise AssetError(
-                f"hull {geom.name!r} takes after {geom.parent!r}, which is {parent.fixed}", where=str(self.asset.path)
-            )
+            problem = f"hull {geom.name!r} takes after {geom.parent!r}, which is {parent.fixed}"
+            raise AssetError(problem, where=str(self.asset.path))
         is_adjacent = (
             (parent is not None and node is not None and not parent.fixed)
             and self.before.body_of[parent.geoms[0]] == geom.body

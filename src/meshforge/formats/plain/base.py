@@ -159,9 +159,8 @@ class PlainFormat(Format):
             holders = back.get(name, set())
             if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
                 problem = f"the hull {name} cannot be told apart from others in this file"
-                raise AssetError(
-                    problem, where=str(where), remedy="Write an OBJ, which has groups, or a folder of files."
-                )
+                remedy = "Write an OBJ, which has groups, or a folder of files."
+                raise AssetError(problem, where=str(where), remedy=remedy)
         read = {name: min(back[name]) for name in back if name in hulls}
         return {name: now for name, now in read.items() if now != name}
 

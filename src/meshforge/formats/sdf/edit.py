@@ -135,11 +135,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
 
 
 def _plan_source(
-    asset: Asset,
-    origin: document.SdfDocument,
-    number: int,
-    files: mesh_output.HullFiles,
-    meshes: models.SdfMeshes,
+    asset: Asset, origin: document.SdfDocument, number: int, files: mesh_output.HullFiles, meshes: models.SdfMeshes
 ) -> element_edits.ElementEdits:
     source = origin.sources[number]
     data = source.text.data

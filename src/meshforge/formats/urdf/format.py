@@ -1,4 +1,4 @@
-"""The formats URDF and xacro as the registry has them: what they can hold, and what a file holds that no conversion takes.
+"""The formats URDF and xacro as the registry has them: what they hold, and what a file holds that no conversion takes.
 Xacro files are read as the URDF that they expand to, and written as plain URDF, as no edit fits into a macro."""
 
 from __future__ import annotations

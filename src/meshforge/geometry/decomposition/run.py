@@ -114,10 +114,7 @@ def _limit_vertices(hull: Polytope, most: int | None) -> Polytope:
 
 
 def _make_hulls(
-    pieces: list[engines.EnginePiece],
-    diagonal: float,
-    settings: engines.DecomposeSettings,
-    note: Callable[[str], None],
+    pieces: list[engines.EnginePiece], diagonal: float, settings: engines.DecomposeSettings, note: Callable[[str], None]
 ) -> list[Polytope]:
     """The convex hull of each piece, or one around it of as many vertices as a hull may have: sheets get a thickness,
     needles and crumbs without an area are dropped.

@@ -138,10 +138,6 @@ class Arrangement:
         items = self.hull_pixels(hits)
         return count_pixels(items, len(self.subject.render_meshes)) / items.size
 
-    def cast_solid(self, camera: Camera) -> RayHits:
-        """Return what the pixels show of the hulls that are drawn in full."""
-        return cast_rays(self._solid_scene, camera)
-
     def cast_faint(self, camera: Camera) -> RayHits | None:
         """Return what the pixels show of the faint hulls and of what is no hull, None where there is neither."""
         scene = self._faint_scene
@@ -162,13 +158,14 @@ class Arrangement:
         return build_scene(render_meshes, self.view_frame.bounds.center, self.view_frame.unit)
 
     @cached_property
-    def _solid_scene(self) -> RayScene:
+    def solid_scene(self) -> RayScene:
+        """The hulls that are drawn in full."""
         return self._build_scene([self.subject.render_meshes[k] for k in self.solid])
 
     @cached_property
     def _preview_scene(self) -> RayScene:
         """The solid hulls for previews from all sides, in which it is no matter which of two in one place is seen."""
-        return prepare_for_rays(self._solid_scene, None)
+        return prepare_for_rays(self.solid_scene, None)
 
     @cached_property
     def _visual_scene(self) -> RayScene:
