@@ -229,8 +229,7 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
     """Return the path of an asset's output: below `out_dir` as the asset is below `base`.
 
     Where the asset has files outside of `base`, or references that pass through a folder above it (MJCF's
-    `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds it and them all, so that they still
-    end within `out_dir`.
+    `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds them all: they stay in `out_dir`.
     """
     path, base = plain_path(asset.path), plain_path(base)
     if path.suffix.lower() in SUFFIXES:

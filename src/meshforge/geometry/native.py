@@ -1,6 +1,4 @@
-"""The native cylinder, capsule and sphere of the least radius around shapes, along an axis that is given: no
-tessellation stands in for what is round.
-"""
+"""The native cylinder, capsule and sphere of the least radius around shapes, not tessellated; the smallest ball."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The document of a glTF file: its container, text or GLB, its JSON, in which any value may be of any type, and one
-clear error for all that is damaged."""
+"""The document of a glTF file: its container, its JSON, with values of any type, and one error for all damage."""
 
 from __future__ import annotations
 

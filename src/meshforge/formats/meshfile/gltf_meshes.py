@@ -1,5 +1,4 @@
-"""The numbers of a glTF file: its buffers, wherever they are, views of them, and accessors; and the triangles of its
-meshes, plain, or compressed by Draco."""
+"""The numbers of a glTF file: buffers, views of them, accessors; and the triangles of its meshes, plain or by Draco."""
 
 from __future__ import annotations
 

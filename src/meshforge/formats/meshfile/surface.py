@@ -1,5 +1,4 @@
-"""What every mesh file is read into: named surfaces, checked for what no reader may let pass; and the parts of these,
-by groups, objects, nodes and materials."""
+"""What every mesh file is read into: named surfaces, checked for damage, and their parts, by groups and materials."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """What the plain mesh formats have in common: a file is one body, its convex pieces are the hulls.
 
-A writer hands over the new file and the owner that each triangle should have; reading the file back shows whether it
-holds that, and under which names.
+A writer hands over the new file and the owner that each triangle should have; reading it back shows if it does so.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame: by what
-they say themselves, or by their colliders."""
+"""Joints of a stage that make trees of its bodies, and masses of these, said or by colliders, in the root frame."""
 
 from __future__ import annotations
 

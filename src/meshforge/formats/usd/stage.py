@@ -1,6 +1,5 @@
-"""OpenUSD, the library, used by one asset at a time; what is kept of a stage to write it back; and an open stage: its
-prims in order, and where they are in metres.
-"""
+"""OpenUSD, the library, used by one asset at a time; layers as files; what is kept of a stage to write it back; and an
+open stage: its prims in order, and where they are in metres."""
 
 from __future__ import annotations
 

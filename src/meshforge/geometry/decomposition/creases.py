@@ -1,5 +1,4 @@
-"""Where a surface shows that a part ends: flat patches that go on inside of a convex piece, and loops of concave edges
-around it; and pieces cut along their planes."""
+"""Where a surface shows that a part ends: flat patches that go on inside, loops of concave edges; and cuts by them."""
 
 from __future__ import annotations
 

@@ -31,8 +31,7 @@ def find_regions(vertices: Floats, faces: Ints) -> Ints:
 def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
     """Return what the regions of a solid, of welded vertices (n, 3) [m] and faces (m, 3), enclose of it: each with the
     holes closed where it meets others, as far as these lie about in planes. Nothing where one region encloses all, or
-    the solid is open.
-    """
+    the solid is open."""
     proper = drop_degenerate(vertices, faces)
     numbers, regions = np.unique(find_regions(vertices, proper), return_inverse=True)
     if len(numbers) == 1 or not is_closed(faces):
