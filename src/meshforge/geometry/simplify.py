@@ -1,4 +1,4 @@
-"""Simpler convex hulls around a convex hull: fewer vertices and faces, and nothing of the old hull left outside."""
+"""Simpler convex hulls around a convex hull: of few vertices, triangles or flat faces, nothing of it outside."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures of symbolic meshes: what a picture is of, and `render`, which draws it with title and legend."""
+"""Pictures of symbolic meshes: what a picture is of, and `render`, which draws it with title, legend and names."""
 
 from __future__ import annotations
 

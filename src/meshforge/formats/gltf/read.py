@@ -1,4 +1,4 @@
-"""Reading a glTF file or GLB: from its bytes to an asset, with what it shows, notes and other names of colliders."""
+"""Reading a glTF file or GLB: from its bytes to an asset, with what it shows, notes, and names that mark nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Read an SDF: from its files to an asset with visuals, the files it refers to, and notes."""
+"""Read an SDF: from its files to an asset with visuals, joints and masses, the files it refers to, and notes."""
 
 from __future__ import annotations
 
