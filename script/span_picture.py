@@ -19,8 +19,7 @@ from meshforge.labels.labeler import ignore_stage
 from meshforge.project import REBUILD_DEFAULTS, Project
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas
-from meshforge.rendering.hull_names import place_texts
-from meshforge.rendering.picture import build_subject, draw_on_canvas
+from meshforge.rendering.picture import build_subject, draw_on_canvas, place_texts
 from meshforge.rendering.placement import draw_texts
 from meshforge.samples import family_of, write_family
 

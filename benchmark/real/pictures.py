@@ -15,8 +15,7 @@ from meshforge.rendering import RenderMesh, View, label_colors, write_png
 from meshforge.rendering.annotation import font, shorten
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import HULL_COLORS, HullColors, rgb
-from meshforge.rendering.hull_names import place_texts
-from meshforge.rendering.picture import Subject, draw_on_canvas
+from meshforge.rendering.picture import Subject, draw_on_canvas, place_texts
 from meshforge.rendering.placement import draw_texts
 from meshforge.rendering.raycast import DrawLayer
 

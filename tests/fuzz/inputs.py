@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats.segmentation.reader import read_segmentation
+from meshforge.formats.segmentation import read_segmentation
 from meshforge.language import Program
 from meshforge.store.program import read_steps
 from meshforge.store.settings import read_settings

@@ -25,7 +25,7 @@ from meshforge.geometry import (
     native_cylinder,
     native_sphere,
 )
-from meshforge.geometry.round_shapes import smallest_ball
+from meshforge.geometry.native import smallest_ball
 from tests.examples import examples
 from tests.laws.test_geometry_fits import outside
 from tests.shape_strategies import KINDS, generators, shape

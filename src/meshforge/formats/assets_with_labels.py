@@ -11,7 +11,7 @@ from typing import Any
 from meshforge import symbolic
 from meshforge.common import AssetError, expand_glob
 from meshforge.formats.base import Collision
-from meshforge.formats.engine_names.conventions import MarkName
+from meshforge.formats.engine_names import MarkName
 from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import FORMATS_BY_SUFFIX, Source, all_suffixes, is_asset, path_of, read
 from meshforge.symbolic import Label, SymbolicMesh, write_labels
@@ -31,8 +31,7 @@ def load(source: Source, labels: Labels | None = None) -> symbolic.SymbolicMesh:
 
     labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
     What is saved of an object in memory is what it said when it was loaded, with the edit; the object does not change.
-    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there;
-    UsageError: nothing that can be read.
+    Raises AssetError: the asset or labels cannot be read; HullNotFoundError: a label for no hull; UsageError: no asset.
     """
     mesh = symbolic.SymbolicMesh.of(read(source))
     if isinstance(labels, Mapping):
@@ -51,8 +50,7 @@ def label_hulls(mesh: symbolic.SymbolicMesh, labels: Mapping[str, Label | str]) 
 
 
 def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.SymbolicMesh]:
-    """Return the symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked
-    for.
+    """Return the symbolic meshes of all files that the patterns match (`**` too), sorted, each read when asked for.
 
     Raises AssetError at once where a pattern matches no asset.
     """

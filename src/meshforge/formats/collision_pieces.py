@@ -1,5 +1,4 @@
-"""The collision geometry of a file as a reader finds it: its pieces, convex shapes or surfaces in the root frame, under
-the names that they carry."""
+"""The collision geometry of a file as a reader finds it: named pieces, convex shapes or surfaces in the root frame."""
 
 from __future__ import annotations
 
@@ -125,8 +124,7 @@ def build_primitive(kind: str, sizes: Floats, pose: Pose) -> CollisionPiece:
 
 
 def build_round(kind: str, pose: Pose, bottom: float, top: float, half: float) -> CollisionPiece:
-    """Return a cylinder, a cone or a capsule about Z of a pose; bottom, top: its radii; half: of its straight height
-    [m].
+    """Return a cylinder, a cone or a capsule about Z of a pose; bottom, top: radii; half: of its straight height [m].
 
     A tapered one, which no engine has natively, is a hull; a capsule without a straight part a sphere.
     """
@@ -169,8 +167,7 @@ def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
 def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
     """Return the names that the pieces of collision elements read as; for each element its link, own name and pieces.
 
-    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
-    several pieces.
+    `link/name`, without a link for None; `geomK` for the K-th of a link without a name; `#k` for one of several.
     """
     count: dict[str | None, int] = {}
     bases = []
@@ -188,8 +185,7 @@ def own_name_of(names: tuple[str, ...], body: str | None) -> str:
 
 
 def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
-    """Return collisions with the names of their pieces; found: of each its link and its element; pieces: how many it
-    has."""
+    """Return collisions with the names of their pieces; found: their links and elements; pieces: how many each has."""
     own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
     named = zip(own, name_element_pieces(own), strict=True)
     return tuple(CollisionElement(link, names) for (link, _, _), names in named)
@@ -251,8 +247,7 @@ def collect_mentions(
 
 
 def names_to_keep(asset: Asset) -> set[str]:
-    """Return the names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex
-    pieces."""
+    """Return the names of the pieces that an edit leaves as they were: hulls without a parent, all non-convex ones."""
     return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.non_convex}
 
 

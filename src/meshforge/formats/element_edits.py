@@ -146,8 +146,7 @@ class ElementMaker(ABC):
 class ElementEdits:
     """The collision elements of the output.
 
-    places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
-    no collision element.
+    places: each authored element, with what stands in its place; ends: what is added to a link without collisions.
     """
 
     def __init__(
@@ -217,11 +216,8 @@ def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
     """Raise AssetError for a hull on a link that is not there."""
     if geom.body not in links:
         like = nearest_name(geom.body, links)
-        raise AssetError(
-            f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
-            where=where,
-            remedy=f"The nearest name of a link is {like!r}." if like else None,
-        )
+        problem = f"hull {geom.name!r} is on link {geom.body!r}, which is not there"
+        raise AssetError(problem, where=where, remedy=f"The nearest name of a link is {like!r}." if like else None)
 
 
 def replace_element(data: bytes, element: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:
@@ -269,8 +265,7 @@ def assign_names(outputs: Sequence[OutputElement], *, unique: bool = False) -> d
 
     unique: whether a name that MeshForge made up is left out where another element of the file has it, as some engines
     want names unique in the file. Returns the names that cannot be had all the same, with what they read back as: a
-    hull of a format whose names do not begin with the body, or an element that its author called like a piece of
-    another.
+    hull of a format whose names do not begin with the body, or an element with the name of a piece of another.
     """
     for _ in range(4):
         for output, _names in _find_misread(outputs):

@@ -18,6 +18,10 @@ LIGHT_INERTIAL = Inertial("", 1e-6, np.zeros(3), 1e-9 * np.eye(3))
 """The mass of a link that stands for none, above what engines refuse."""
 TENSOR_NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """What URDF and SDF call the six numbers of an inertia, those on and above its diagonal."""
+COMMON_KINDS: Mapping[str, JointKind] = {
+    "fixed": "fixed", "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"
+}  # fmt: skip
+"""The kinds of joints that URDF and SDF call the same."""
 
 _NEAR = 1e-12  # [m] from a link's origin, within which a joint's axis counts as going through it
 _ROUNDING = 1e-14  # as a share of the largest number; a few products of rotations make less

@@ -18,16 +18,14 @@ from meshforge.formats.assets_with_labels import label_hulls, labels_beside
 from meshforge.formats.meshfile import surface as meshfile
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.formats.plain.base import build_asset
-from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
-from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
+from meshforge.formats.segmentation import POINTS_MARK, SegmentationFile, points_beside, read_parts
 from meshforge.symbolic import Asset, Body, Document, Geom, Label, Surface, SymbolicMesh, unique_names
 
 WHERE = "trimesh"
 _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
 
 DecomposeBy = Literal["whole", "parts", "labels"]
-"""Whether a surface is decomposed at once, or each of its parts by itself: those that its file names, or those that
-segmented points say."""
+"""Whether a surface is decomposed at once, or each part by itself: as its file names them, or segmented points say."""
 
 
 @runtime_checkable

@@ -64,8 +64,7 @@ class HullFiles:
     def folder_of(self, reference: str | None) -> str:
         """Return the folder of a mesh reference as it is written, with a final slash, where hulls may join the mesh.
 
-        The empty text, which is the folder of the description, where the mesh lies outside of it or at an absolute
-        place.
+        Empty, which is the folder of the description, where the mesh lies outside of it or at an absolute place.
         """
         place = self._placement_of(reference) if reference else None
         if reference is None or place is None or place.startswith(".."):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import errno
 import os
 import re
+import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from meshforge.common import AssetError, is_beyond_reach
 from meshforge.formats.meshfile import dae, gltf_scene, obj, ply, stl, vrml
@@ -23,56 +23,11 @@ _XML = re.compile(rb"(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*>)*<([A-Za-z][\w
 _CONFLICT = re.compile(rb"^<{7} .*?^={7}\r?$", re.M | re.S)
 _MARK = b"\xef\xbb\xbf"  # the byte order mark of UTF-8
 
-_FETCH = "Fetch the file itself: git lfs pull."
-_OTHER = "MeshForge does not read such files: export it as OBJ."
 _LOADED = "The download went wrong: take the raw file, not the page that shows it."
-
-_ROOTS = {
-    "collada": ("a Collada file", ".dae"),
-    "robot": ("a URDF file", ".urdf"),
-    "mujoco": ("an MJCF file", ".xml"),
-    "mujocoinclude": ("an MJCF file", ".xml"),
-    "sdf": ("an SDF file", ".sdf"),
-    "x3d": ("an X3D file", ""),
-    "error": ("the error of a web server", ""),
-}
+_KINDS = tomllib.loads(Path(__file__).with_name("file_kinds.toml").read_text(encoding="utf-8"))
 _NEVER_XML = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
 
 Mismatch = tuple[str, str | None]
-
-
-class FileSignature(NamedTuple):
-    """A kind of file: how it begins, its name for people, the suffixes under which it is right, and the remedy.
-
-    Without a remedy, it is to be renamed to the first of its suffixes.
-    """
-
-    begins: bytes
-    name: str
-    suffixes: tuple[str, ...] = ()
-    remedy: str | None = None
-
-
-_SIGNATURES = (
-    FileSignature(rb"version https://git-lfs\.github\.com/spec", "a Git LFS pointer, not the file itself", (), _FETCH),
-    FileSignature(rb"<!doctype html|<html", "a web page", (), _LOADED),
-    FileSignature(rb"\x1f\x8b", "a file compressed by gzip", (), "Unpack it first (gunzip)."),
-    FileSignature(rb"PK\x03\x04", "a ZIP archive", (".usdz", ".zae"), "Unpack it first (unzip)."),
-    FileSignature(rb"7z\xbc\xaf|Rar!", "a compressed archive", (), "Unpack it first."),
-    FileSignature(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0", "a picture"),
-    FileSignature(rb"%PDF-", "a PDF document"),
-    FileSignature(rb"glTF", "a binary glTF file", (".glb", ".gltf")),
-    FileSignature(rb"ply\s+(?:format|comment|element|obj_info)\b", "a PLY file", (".ply",)),
-    FileSignature(rb"#VRML V", "a VRML file", (".wrl",)),
-    FileSignature(rb"solid\b.*\bfacet\b", "an ASCII STL file", (".stl",)),
-    FileSignature(rb"n?OFF\s+[\d#]", "an OFF file", (), _OTHER),
-    FileSignature(rb"Kaydara FBX|; FBX", "an FBX file", (), _OTHER),
-    FileSignature(rb"BLENDER", "a Blender file", (), _OTHER),
-    FileSignature(rb"PXR-USDC|#usda", "a USD file", (".usd", ".usda", ".usdc")),
-    FileSignature(rb"(?:#[^\n]*\n\s*)*(?:mtllib\s|o\s|g\s|v\s+[-\d.])", "an OBJ file", (".obj",)),
-    FileSignature(rb"\{\s*\"asset\"", "a glTF file", (".gltf",)),
-    FileSignature(rb"\{\s*[\"}]", "JSON, not a mesh", (".gltf",), _LOADED),
-)
 
 
 def read_triangles(path: Path) -> list[RawSurface]:
@@ -167,13 +122,12 @@ def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
 
 
 def _check_signature(data: bytes, suffix: str) -> Mismatch | None:
-    for known in _SIGNATURES:
-        if re.match(rb"(?:\xef\xbb\xbf)?\s*" + known.begins, data[:_HEAD], re.S | re.I):
-            if suffix in known.suffixes:
+    for known in _KINDS["signatures"]:
+        if re.match(rb"(?:\xef\xbb\xbf)?\s*" + known["begins"].encode(), data[:_HEAD], re.S | re.I):
+            name, suffixes, remedy = known["name"], known.get("suffixes", ()), known.get("remedy")
+            if suffix in suffixes:
                 return None
-            if known.remedy or not known.suffixes:
-                return f"this is {known.name}", known.remedy
-            return _wrong_suffix(known.name, known.suffixes[0])
+            return (f"this is {name}", remedy) if remedy or not suffixes else _wrong_suffix(name, suffixes[0])
     return None
 
 
@@ -181,8 +135,8 @@ def _check_markup(data: bytes, suffix: str) -> Mismatch | None:
     if suffix not in _NEVER_XML or not (root := _XML.match(data[:_HEAD].removeprefix(_MARK))):
         return None
     tag = root[1].decode("ascii", "replace")
-    name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
-    return _wrong_suffix(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
+    name, right, remedy = _KINDS["roots"].get(tag.lower(), (f"XML, its root element is <{tag}>", "", _LOADED))
+    return _wrong_suffix(name, right) if right else (f"this is {name}", remedy)
 
 
 def _wrong_suffix(name: str, suffix: str) -> Mismatch:

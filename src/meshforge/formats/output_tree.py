@@ -16,7 +16,7 @@ from meshforge.common import AssetError, plain_path, replace_atomically, write_a
 from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
-from meshforge.formats.engine_names.conventions import MarkName
+from meshforge.formats.engine_names import MarkName
 from meshforge.formats.registry import SUFFIXES, folder_format, format_for, format_named, format_with_names, load_format
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
@@ -185,22 +185,18 @@ def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: boo
         if target.resolve() in inputs:
             raise AssetError("this file belongs to the input", where=str(target), remedy="Write to another folder.")
         if not overwrite:
-            raise AssetError(
-                "there is such a file already, with other content",
-                where=str(target),
-                remedy="Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere.",
-            )
+            problem = "there is such a file already, with other content"
+            remedy = "Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere."
+            raise AssetError(problem, where=str(target), remedy=remedy)
 
 
 def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Path]:
     """Mesh files in a folder that are not of the asset which is written there; they would count as its hulls."""
     found = [path for path in folder_format().mesh_files(out) if path not in plan] if out.is_dir() else []
     if found and not overwrite:
-        raise AssetError(
-            f"this folder has other mesh files in it, such as {found[0].name}",
-            where=str(out),
-            remedy="Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True).",
-        )
+        problem = f"this folder has other mesh files in it, such as {found[0].name}"
+        remedy = "Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True)."
+        raise AssetError(problem, where=str(out), remedy=remedy)
     return found
 
 
@@ -233,8 +229,7 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
     """Return the path of an asset's output: below `out_dir` as the asset is below `base`.
 
     Where the asset has files outside of `base`, or references that pass through a folder above it (MJCF's
-    `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds it and them all, so that they still
-    end within `out_dir`.
+    `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds them all: they stay in `out_dir`.
     """
     path, base = plain_path(asset.path), plain_path(base)
     if path.suffix.lower() in SUFFIXES:

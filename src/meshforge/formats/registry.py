@@ -18,10 +18,10 @@ from meshforge.common.plugins import Targets, make_target
 from meshforge.formats.base import Format, ReadOptions, SpecObject, StageObject
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.plugin_format import guard_format
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 
 if TYPE_CHECKING:
-    from meshforge.formats.engine_names.conventions import MarkName
+    from meshforge.formats.engine_names import MarkName
     from meshforge.formats.plain.folder import FolderFormat
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
@@ -54,8 +54,7 @@ FORMATS_BY_SUFFIX: Registry[Format] = Registry(
     Targets({suffix: f"{__package__}.{target}" for target, suffixes in _SUFFIXES.items() for suffix in suffixes}),
     lambda plugin, kind: guard_format(plugin, kind, [known.name for known in list_formats()]),
 )
-"""The formats of files by suffix, without the dot, each imported when first asked for: files of a plug-in that cannot
-be loaded are assets as well."""
+"""The formats of files by suffix, without the dot, imported on demand: files of broken plug-ins are assets, too."""
 MESH_SUFFIXES = (".obj", ".stl", ".ply", ".wrl")
 """The suffixes of plain mesh files, which may be pieces of a folder."""
 
@@ -77,8 +76,7 @@ def list_formats() -> tuple[Format, ...]:
 
 
 def list_marked_formats(names: MarkName) -> tuple[Format, ...]:
-    """Return the formats that can be written with collision marked in a way: by names that an engine knows, or an
-    extension."""
+    """Return the formats that can be written with collision marked in a way: by an engine's names, or an extension."""
     return tuple(map(load_format, _MARKED[names]))
 
 
@@ -114,8 +112,7 @@ def plugin_of_suffix(suffix: str) -> Plugin | None:
 
 
 def resolve_asset_path(path: Path) -> Path:
-    """Return the file or folder that is meant: the folder of a Gazebo model (one with a `model.config`) stands for its
-    SDF.
+    """Return the file or folder that is meant: the folder of a Gazebo model (with a `model.config`) is its SDF.
 
     Raises AssetError: its `model.config` is no XML.
     """
@@ -129,8 +126,7 @@ def resolve_asset_path(path: Path) -> Path:
 def format_of(path: Path) -> Format:
     """Return the format of a file or folder that is to be read.
 
-    Raises AssetError: there is no such file, or it is of no known format. Raises PluginError: it is of a plug-in that
-    cannot be loaded.
+    Raises AssetError: no such file, or no known format. Raises PluginError: its plug-in cannot be loaded.
     """
     if path.is_dir():
         return folder_format()
@@ -163,8 +159,7 @@ def is_asset(path: Path) -> bool:
 
 
 def format_for(path: Path, own: str) -> Format:
-    """Return the format of a file that is to be written, by its suffix; own: the name of the format that the asset has
-    now.
+    """Return the format of a file to be written, by its suffix; own: the name of the format that the asset has.
 
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
@@ -264,8 +259,7 @@ def notes_after(before: symbolic.Asset, written: symbolic.Asset, hulled: Collect
 
 
 def path_of(source: symbolic.SymbolicMesh | Source) -> Path | None:
-    """Return the file or folder that is meant, None for text and for objects. Raises AssetError as
-    `resolve_asset_path`."""
+    """Return the file or folder that is meant, None for text and objects. Raises as `resolve_asset_path`."""
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
 

@@ -165,8 +165,7 @@ _SLIGHT = 1e-4  # share of the size, by which single precision moves a box
 
 
 def read_materials(path: Path) -> list[Surface]:
-    """Return the surfaces of a mesh file with their base colours or pictures; plain where trimesh does not read the
-    same.
+    """Return the surfaces of a mesh file with base colours or pictures; plain where trimesh reads others.
 
     Raises AssetError: the file cannot be read.
     """

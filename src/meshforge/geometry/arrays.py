@@ -1,5 +1,4 @@
-"""Arrays of points: their types, write protection for those kept in frozen classes, arithmetic on rows, and the
-axis-aligned boxes around them."""
+"""Arrays of points: types, write protection in frozen classes, arithmetic on rows, axis-aligned boxes around them."""
 
 from __future__ import annotations
 
@@ -34,8 +33,7 @@ def freeze_ints(values: Any, shape: tuple[int, ...]) -> Ints:
 
 
 def distinct(values: Ints) -> Ints:
-    """Return the distinct values (m,) of an array, ascending. (numpy's `unique` first loads its masked arrays, 0.01
-    s.)"""
+    """Return the distinct values (m,) of an array, ascending. (numpy's `unique` loads masked arrays, 0.01 s.)"""
     ordered = np.sort(values, axis=None)
     is_first = np.ones(len(ordered), bool)
     is_first[1:] = ordered[1:] != ordered[:-1]
@@ -60,8 +58,7 @@ def sort_rows(rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """Return the cross products of rows (n, 3) and (n, 3); for few rows five times as fast as numpy's own, and the
-    same."""
+    """Return the cross products of rows (n, 3) and (n, 3); for few rows five times as fast as numpy's own."""
     out = np.empty((len(a), 3))
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         out[:, k] = a[:, i] * b[:, j] - a[:, j] * b[:, i]

@@ -32,8 +32,7 @@ _MOST_EDGES = 254  # at a vertex; coal counts them in a byte
 
 
 def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low: Floats, high: Floats) -> list[float]:
-    """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: corners (3,) about
-    all."""
+    """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: of all (3,)."""
     origin, unit = _choose_frame(low.tolist(), high.tolist())
     used = dict.fromkeys(k for pair in pairs for k in pair)
     placed = {k: _place(shapes[k], origin, unit) for k in used}
@@ -50,8 +49,7 @@ def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low:
 
 
 def _choose_frame(low: list[float], high: list[float]) -> tuple[Floats, float]:
-    """Origin (3,) and unit, a power of two [m], of the frame of all that is between two corners; rounded, so that small
-    edits mostly keep it."""
+    """Origin (3,) and unit, a power of two [m], of a frame of two corners, so rounded that small edits keep it."""
     unit = 2.0 ** frexp(dist(low, high))[1]
     return np.array([round((a + b) / unit) * (unit / 2) for a, b in zip(low, high, strict=True)]), unit
 

@@ -10,8 +10,7 @@ _TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each othe
 
 
 def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
-    """Return a number (n,) for each row, equal for equal rows, and the first row of each number; in order of the
-    values."""
+    """Return a number (n,) for each row, equal for equal rows, and the first row of each; in order of the values."""
     key = np.zeros(len(columns[0]), dtype=np.int64)
     for column in columns:
         values = column - column.min(initial=0) if column.dtype.kind == "i" else _rank_values(column)[0]
@@ -59,8 +58,7 @@ def weld_nearly(points: Floats, corners: Ints, reach: float) -> Ints | None:
 
 
 def components_by_vertices(corners: Ints) -> Ints:
-    """Return the component (m,) of each triangle of corners (m, 3), connected by shared vertices, numbered by first
-    face."""
+    """Return the component (m,) of each triangle of corners (m, 3), by shared vertices, numbered by first face."""
     count = int(corners.max(initial=-1)) + 1
     return number_by_occurrence(
         component_roots(corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel(), count)[corners[:, 0]]
@@ -75,8 +73,7 @@ def distinct_faces(corners: Ints, component: Ints) -> Ints:
 
 
 def find_closed_components(corners: Ints, component: Ints) -> Ints:
-    """Return numbers of the components in which every edge has an even number of triangles, doubled ones counted
-    once."""
+    """Return numbers of the components whose edges each have an even number of triangles, doubled ones counted once."""
     total = int(component.max(initial=-1)) + 1
     large = np.flatnonzero((np.bincount(component, minlength=total) >= 4)[component])  # of a raw STL none
     corners, component = corners[large], component[large]
@@ -122,8 +119,7 @@ def number_by_occurrence(labels: Ints) -> Ints:
 
 
 def find_closed_runs(corners: Ints) -> Ints:
-    """Return the run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of
-    them.
+    """Return the run (m,) of each triangle: consecutive ones, cut where all edges so far have an even number.
 
     Programs write solid by solid, so this tells solids apart that share places in a file without groups.
     """

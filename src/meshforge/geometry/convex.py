@@ -177,8 +177,7 @@ def _normalize(points: Floats) -> Floats:
 def prune_vertices(
     unit: Floats, attempt: Callable[[Floats], HullIndices | None], altitude: float
 ) -> HullIndices | None:
-    """Return the hull without vertices that are none: within `altitude` of an edge between two others, or inside a
-    face."""
+    """Return the hull without vertices within `altitude` of an edge between two others, or inside a face."""
     kept = np.arange(len(unit))
     for _ in range(_ROUNDS):
         made = attempt(unit[kept])

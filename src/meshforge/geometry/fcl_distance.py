@@ -25,8 +25,7 @@ def split_shape(shape: Shape) -> list[Shape]:
 
 
 def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low: Floats, high: Floats) -> list[float]:
-    """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: corners (3,) about
-    all."""
+    """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: of all (3,)."""
     origin, unit = (low + high) / 2, dist(low.tolist(), high.tolist()) or 1.0
     used = dict.fromkeys(k for pair in pairs for k in pair)
     placed = {k: _place(shapes[k], origin, unit) for k in used}

@@ -9,14 +9,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.round_shapes import (
-    Capsule,
-    Cylinder,
-    Ellipsoid,
-    Sphere,
-    tessellate_capsule,
-    unit_cylinder,
-)
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere, tessellate_capsule, unit_cylinder
 from meshforge.geometry.shape import Box, Polytope, Shape
 
 ROUND = 0.01
@@ -38,8 +31,7 @@ def aabb_box(bounds: Aabb) -> Box:
 
 
 def aabb_cylinder(bounds: Aabb, axis: int | None = None) -> Cylinder | Polytope:
-    """Return the cylinder along an axis, that of the longest side by default, that fills `bounds`: native where it is
-    round, else of 64 vertices."""
+    """Return the cylinder along an axis, or the longest, that fills `bounds`: native if round, else of 64 vertices."""
     axis = choose_axis(bounds, axis)
     across = np.delete(bounds.size, axis)
     if _are_equal(across):
@@ -48,8 +40,7 @@ def aabb_cylinder(bounds: Aabb, axis: int | None = None) -> Cylinder | Polytope:
 
 
 def aabb_capsule(bounds: Aabb, axis: int | None = None) -> Capsule | Sphere | Ellipsoid | Polytope:
-    """Return the capsule along an axis, that of the longest side by default, that fills `bounds`: native where it is
-    round, else of 50 vertices.
+    """Return the capsule along an axis, or the longest, that fills `bounds`: native if round, else of 50 vertices.
 
     One without a straight part is a sphere or an ellipsoid. The ends of a polytope rise by the mean of its half widths.
     """
@@ -76,8 +67,7 @@ def aabb_sphere(bounds: Aabb) -> Sphere | Ellipsoid:
 def shape_of_radius(
     primitive: str, radius: float, bounds: Aabb, axis: int | None = None
 ) -> Capsule | Cylinder | Sphere:
-    """Return the cylinder, capsule or sphere of a radius [m] about the centre of `bounds`, as long along an axis as
-    these.
+    """Return the cylinder, capsule or sphere of a radius [m] about the centre of `bounds`, as long along an axis.
 
     A capsule that is no longer than it is wide is a sphere.
     """
@@ -121,8 +111,7 @@ def _are_equal(sides: Floats) -> bool:
 
 
 def pose_along(axis: int, bounds: Aabb) -> Pose:
-    """Return the pose at the middle of `bounds` whose Z axis is the coordinate axis; the others follow in their
-    order."""
+    """Return the pose at the middle of `bounds` whose Z axis is the coordinate axis; the others follow in order."""
     return Pose(np.roll(np.eye(3), axis - 2, axis=0), bounds.center)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
+from meshforge.geometry.native import smallest_ball
 from meshforge.geometry.pose import Pose, quaternions_of_rotations, rotations_of_quaternions
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere, smallest_ball
 from meshforge.geometry.shape import Box, Polytope, Shape
@@ -131,8 +132,7 @@ def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) 
 
 @_remember
 def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | None = None) -> Cylinder:
-    """Return the smallest cylinder around points (n, 3), in any orientation; all points are inside to 1e-12 of its
-    size.
+    """Return the smallest cylinder around points (n, 3), turned in any way; all are inside to 1e-12 of its size.
 
     Raises GeometryError as `convex_hull` does.
     """
@@ -237,8 +237,7 @@ def _measure_capsules(corners: Floats, lines: Floats) -> tuple[Floats, Floats, F
 
 
 def frame_of_axis(axis: Floats) -> Floats:
-    """Return a rotation (3, 3) whose last row is the axis, turned upwards, and whose first is as near to X as can
-    be."""
+    """Return a rotation (3, 3) whose last row is the axis, turned upwards, and whose first is nearest to X."""
     third = axis / np.linalg.norm(axis)
     third = third * (1.0 if third[np.argmax(np.abs(third))] > 0 else -1.0)
     first = np.eye(3)[0] if abs(third[0]) < 0.9 else np.eye(3)[1]

@@ -1,5 +1,4 @@
-"""Shapes inside a convex hull: the largest box, cylinder, capsule and sphere there, and the hull with all its planes
-moved inwards."""
+"""Shapes inside a convex hull: the largest box, cylinder, capsule and sphere, the hull with planes moved inwards."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> Primiti
 
 
 def shrink(shape: Shape, distance: float, name: str) -> Shape:
-    """Return a shape with its surface moved inwards by a distance [m]: planes, radii, and the semi-axes of an
-    ellipsoid.
+    """Return a shape with its surface moved inwards by a distance [m]: planes, radii, semi-axes of an ellipsoid.
 
     Raises GeometryError naming the hull where nothing is left.
     """
@@ -55,10 +53,8 @@ def shrink(shape: Shape, distance: float, name: str) -> Shape:
     planes = None if sizes else _InnerPlanes(shape.tessellate())
     least = planes.inscribe_ball()[1] if planes else min(np.min(size) for size in sizes.values())
     if distance >= least * (1 - SAME_LENGTH):
-        raise GeometryError(
-            f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most",
-            remedy="Give a smaller distance, or leave this hull out of the selection.",
-        )
+        problem = f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most"
+        raise GeometryError(problem, remedy="Give a smaller distance, or leave this hull out of the selection.")
     if planes:
         return planes.move_inwards(distance, name)
     primitive: Any = shape

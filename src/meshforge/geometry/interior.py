@@ -55,8 +55,7 @@ class Interior:
         return corners + self._bounds.center, np.asarray(mesh.tri_verts).astype(np.int64)
 
     def list_hulls(self, shapes: Sequence[Polytope]) -> list[Polytope]:
-        """Return the convex hulls of what shapes have of it, one of each connected piece; shapes that it nearly fills
-        stay."""
+        """Return the convex hulls of what shapes have of it, one a connected piece; shapes it nearly fills stay."""
         if self._solid is None:
             return list(shapes)
         found = list[Polytope]()
@@ -75,8 +74,7 @@ class Interior:
 
 
 def _find_solid(vertices: Floats, faces: Ints, bounds: Aabb) -> Any | None:
-    """What vertices (n, 3) [m] and faces (m, 3) enclose, in the coordinates of `to_manifold`; None where that is
-    no solid.
+    """What vertices (n, 3) [m] and faces (m, 3) enclose, in coordinates of `to_manifold`; None for no solid.
 
     manifold3d 3.5.4 refuses most surfaces with a border, and crashes on some.
     """

@@ -21,8 +21,7 @@ _NEAR = 12  # triangles by height, and as many by distance, among which the near
 
 
 def turn_planes(normals: Floats, hull: Polytope) -> Floats:
-    """Return the corners (n, 3) of a polytope around a hull, of as many planes as there are normals (k, 3) to start
-    from."""
+    """Return the corners (n, 3) of a polytope around a hull, of as many planes as normals (k, 3) to start from."""
     inner = InnerHull(hull)
     return inner.scale_back(descend(_Planes(inner, normals), 0.2).corners)
 
@@ -49,8 +48,7 @@ class InnerHull:
         return found
 
     def measure_gaps(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return how far (n,) points (n, 3) outside are from the hull, and the unit vectors (n, 3) that lead away from
-        it."""
+        """Return how far (n,) points (n, 3) outside are from the hull, and the unit vectors (n, 3) away from it."""
         most = min(_NEAR, len(self._triangles)) - 1
         heights = self._offsets - points @ self._normals.T
         squares = (self._middles**2).sum(axis=1) - 2 * points @ self._middles.T
@@ -105,16 +103,14 @@ class State(ABC):
 
     @abstractmethod
     def move(self, step: float) -> Self | None:
-        """Return the state after a programme whose variables change by at most `step`; None where that has no
-        answer."""
+        """Return the state after a programme whose variables change by `step` at most; None without an answer."""
 
 
 _S = TypeVar("_S", bound=State)
 
 
 def descend(state: _S, step: float, rounds: int = _ROUNDS, gain: float = _GAIN, least: float = _LEAST_STEP) -> _S:
-    """Return the best state that moves lead to, of fewer and shorter steps; gain: see _GAIN; least: the shortest
-    step."""
+    """Return the best state that moves lead to, in ever shorter steps; gain: see _GAIN; least: the shortest step."""
     from scipy.spatial import QhullError  # lazy: slow to import
 
     for _ in range(rounds):

@@ -87,8 +87,7 @@ class _Merger:
             self._touching[other].add(place)
 
     def join_slivers(self, least: float, labels: Ints) -> None:
-        """Join groups below a volume to the neighbour of any kind whose hull grows least, of those whose hull grows by
-        little beside their own."""
+        """Join groups below a volume to the neighbour of any kind whose hull grows least, and only by little."""
         for place in sorted(self.groups, key=lambda k: (self.groups[k].volume, k)):
             own = self.groups[place]
             if own.volume >= least:  # it took in others meanwhile

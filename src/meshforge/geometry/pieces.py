@@ -101,8 +101,7 @@ def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) ->
 
 
 def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> tuple[Polytope, float | None]:
-    """Return the hull of a mesh of vertices (n, 3) and faces (m, 3), or of its corners (k, 3), and the `fill` of it
-    (`Piece`).
+    """Return the hull of a mesh of vertices (n, 3) and faces (m, 3), or of corners (k, 3), and its `fill` (`Piece`).
 
     Raises GeometryError: they span no volume, a coordinate is not finite.
     """

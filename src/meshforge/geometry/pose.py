@@ -134,8 +134,7 @@ def nearest_aligned_rotation(rotation: Floats) -> Floats:
 
 
 def nearest_aligned_rotation_between(start: Floats, end: Floats) -> Floats:
-    """Return the axis-aligned rotation that takes `start` nearest to `end` (3,); of these the nearest to the
-    identity."""
+    """Return the axis-aligned rotation that takes `start` nearest to `end` (3,), of these the nearest to identity."""
     return _best_aligned(lambda turn: float(end @ turn @ start))
 
 

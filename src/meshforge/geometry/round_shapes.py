@@ -219,8 +219,7 @@ def unit_cylinder() -> tuple[Floats, Ints]:
 
 
 def tessellate_capsule(radius: float, half_length: float) -> tuple[Floats, Ints]:
-    """Return vertices (50, 3) and outward triangles of the capsule about local Z; half_length of its straight part
-    [m]."""
+    """Return vertices (50, 3) and outward triangles of the capsule about local Z; half_length: straight part [m]."""
     dome = [(radius * r, radius * z + half_length) for r, z in _dome(3)]
     top = radius + half_length
     below = [_ring(r, -z, _RING_POINTS) for r, z in reversed(dome)]

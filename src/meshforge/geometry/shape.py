@@ -1,5 +1,4 @@
-"""The base of all convex shapes, the two with flat faces (polytope and box), and the digest and comparison of
-shapes."""
+"""The base of all convex shapes, the two with flat faces (polytope, box), and the digest and comparison of shapes."""
 
 from __future__ import annotations
 
@@ -49,8 +48,7 @@ class Shape(ABC):
 
     @abstractmethod
     def support(self, direction: Floats) -> Floats:
-        """Return a point (3,) of the shape that lies farthest along `direction` (3,), which need not be a unit
-        vector."""
+        """Return a point (3,) of the shape that lies farthest along `direction` (3,), of any length."""
 
     @abstractmethod
     def tessellate(self) -> Polytope:

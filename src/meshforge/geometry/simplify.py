@@ -1,5 +1,4 @@
-"""Simpler convex hulls around a convex hull: fewer vertices and faces, and nothing of the old hull left outside. Where
-both numbers bind, vertices and planes move together, each vertex on three planes or more."""
+"""Simpler convex hulls around a convex hull: of few vertices, triangles or flat faces, nothing of it outside."""
 
 from __future__ import annotations
 
@@ -42,8 +41,7 @@ class Enclosure:
 
 
 def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
-    """Return a convex hull within a budget that holds all of another hull and sticks out little; None where none was
-    found.
+    """Return a convex hull within a budget that holds all of another and sticks out little; None where none was found.
 
     Found in three ways, of which the closest counts: planes around the hull, more and more of them, then turned; the
     outermost vertices of the hull, so many that the triangles between them are within the budget, then moved; and,
@@ -118,8 +116,7 @@ def _cross_planes(hull: Polytope, normals: Floats, growth: float) -> Floats:
 
 
 def _choose_vertices(hull: Polytope, count: int) -> Floats:
-    """So many vertices of a hull: from a tetrahedron of its farthest ones on, again and again the one that lies highest
-    over the hull of those that were chosen."""
+    """So many vertices of a hull: a tetrahedron of the farthest, then again and again the highest over those chosen."""
     points = (hull.vertices - hull.vertices.mean(axis=0)) / float(np.ptp(hull.vertices, axis=0).max())
     _, axes, _ = principal_extents(points)
     chosen = list(dict.fromkeys(int(k) for side in (points @ axes.T).T for k in (side.argmin(), side.argmax())))
@@ -127,8 +124,7 @@ def _choose_vertices(hull: Polytope, count: int) -> Floats:
 
 
 def _choose_outermost(points: Floats, chosen: list[int], count: int) -> list[int]:
-    """The numbers of so many points (n, 3): to some that are chosen already, again and again the one that lies highest
-    over the hull of those."""
+    """The numbers of so many points (n, 3): to those chosen, again and again the one highest over their hull."""
     from scipy.spatial import ConvexHull  # lazy: slow to import, only simplifying needs it
 
     while len(chosen) < count:

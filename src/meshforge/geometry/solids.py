@@ -1,5 +1,4 @@
-"""Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cut by planes, and
-intersected."""
+"""Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cuts by planes and intersections."""
 
 from __future__ import annotations
 
@@ -119,8 +118,7 @@ def combine_inertias(
 
 
 def principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
-    """Return the principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its
-    own."""
+    """Return the principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); its own if diagonal."""
     if not (inertia - np.diag(np.diag(inertia))).any():
         return np.diag(inertia).copy(), np.eye(3)
     moments, axes = np.linalg.eigh(inertia)

@@ -39,8 +39,7 @@ def _number_edges(faces: Ints) -> tuple[Ints, Ints]:
 
 
 def is_convex_hull(vertices: Floats, faces: Ints, tolerance: float) -> bool:
-    """Return whether faces (m, 3) are closed, all face outwards and are convex: `is_closed`, `is_outward` and
-    `is_convex`."""
+    """Return whether faces (m, 3) are closed, face outwards and are convex: `is_closed`, `is_outward`, `is_convex`."""
     if not is_closed(faces):
         return False
     planes = planes_of(vertices, faces)
@@ -88,8 +87,7 @@ def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
 
 
 def is_outward(vertices: Floats, faces: Ints) -> bool:
-    """Return whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its
-    middle."""
+    """Return whether the faces (m, 3) of a convex surface all face outwards: none faces its middle."""
     return bool((planes_of(vertices, faces).offsets > 0).all())
 
 

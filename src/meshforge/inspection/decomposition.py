@@ -95,8 +95,7 @@ def advise_decomposition(
     cache: bool = True,
     progress: Callable[[str], None] = lambda _: None,
 ) -> DecompositionAdvice:
-    """Return what three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known
-    parts.
+    """Return what three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, whole and by known parts.
 
     settings: all else about the engine; labels: segmented points that say what the parts are, None for those
     that the file names; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
@@ -135,8 +134,7 @@ def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSett
 
 
 def find_regions(surface: Surface) -> tuple[Ints | None, str]:
-    """Return the region (m,) of each face that a hull should not leave, and what the regions are; None where there is
-    one."""
+    """Return the region (m,) of each face that a hull should not leave, and what these are; None for a single one."""
     if surface.parts and surface.parts.is_divided:
         return surface.parts.of_face, f"judged by {pluralize(len(surface.parts.numbers), 'named part')}"
     component = geometry.components_by_vertices(geometry.weld(surface.vertices)[surface.faces])
@@ -146,8 +144,7 @@ def find_regions(surface: Surface) -> tuple[Ints | None, str]:
 
 
 def find_spanning(surface: Surface, regions: Ints, hulls: Sequence[Polytope]) -> Any:
-    """Return which hulls (k,) span regions (m,) of the faces: no region has 90% of the surface that the hull stands
-    for.
+    """Return which hulls (k,) span regions (m,) of the faces: none has 90% of the surface that the hull stands for.
 
     A place on the surface counts for the hull that it is deepest in.
     """

@@ -111,7 +111,10 @@ class Difference:
     def to_json(self) -> dict[str, Any]:
         """Return the names, and counts of hulls and vertices and volumes [m^3] of both, as JSON-able data."""
         return {
-            **{name: list(getattr(self, name)) for name in ("removed", "made", "changed", "kept")},
+            "removed": list(self.removed),
+            "made": list(self.made),
+            "changed": list(self.changed),
+            "kept": list(self.kept),
             "hulls": {"before": len(self.before.hulls), "after": len(self.after.hulls)},
             "vertices": {"before": _count_vertices(self.before), "after": _count_vertices(self.after)},
             "volume": {"before": _sum_volumes(self.before), "after": _sum_volumes(self.after)},

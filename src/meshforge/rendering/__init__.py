@@ -1,5 +1,4 @@
-"""Pictures of symbolic meshes for labelling, reports, thumbnails and terminals: rays and arithmetic, no display
-needed."""
+"""Pictures of symbolic meshes for labelling, reports, thumbnails, terminals: rays and arithmetic, without a display."""
 
 from meshforge.common.exports import export_lazily
 
@@ -9,12 +8,14 @@ __getattr__, __all__ = export_lazily(
         "camera": "VIEWS Up View",
         "canvas": "check_picture_path encode_png encode_webp make_contact_sheet write_picture write_png",
         "colors": "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy color_hulls label_color label_colors",
-        "comparison": ("LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_volumes"),
+        "comparison": (
+            "LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_turn draw_volumes "
+            "encode_gif list_turns write_gif"
+        ),
         "id_buffer": "ThumbnailPixels render_revealing render_thumbnail",
         "labeling.picture": "LabelingPicture",
         "labeling.series": "draw_labeling_pictures",
         "picture": "render up_axis",
         "scene": "RenderMesh to_render_mesh",
-        "turntable": "draw_turn encode_gif list_turns write_gif",
     },
 )

@@ -22,7 +22,11 @@ from meshforge.rendering.comparison import draw_before_after as draw_before_afte
 from meshforge.rendering.comparison import draw_changes as draw_changes
 from meshforge.rendering.comparison import draw_difference as draw_difference
 from meshforge.rendering.comparison import draw_heat_map as draw_heat_map
+from meshforge.rendering.comparison import draw_turn as draw_turn
 from meshforge.rendering.comparison import draw_volumes as draw_volumes
+from meshforge.rendering.comparison import encode_gif as encode_gif
+from meshforge.rendering.comparison import list_turns as list_turns
+from meshforge.rendering.comparison import write_gif as write_gif
 from meshforge.rendering.id_buffer import ThumbnailPixels as ThumbnailPixels
 from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail
@@ -32,7 +36,3 @@ from meshforge.rendering.picture import render as render
 from meshforge.rendering.picture import up_axis as up_axis
 from meshforge.rendering.scene import RenderMesh as RenderMesh
 from meshforge.rendering.scene import to_render_mesh as to_render_mesh
-from meshforge.rendering.turntable import draw_turn as draw_turn
-from meshforge.rendering.turntable import encode_gif as encode_gif
-from meshforge.rendering.turntable import list_turns as list_turns
-from meshforge.rendering.turntable import write_gif as write_gif

@@ -130,8 +130,7 @@ class LabelAnchor:
 
 
 def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least: int = 1) -> dict[int, LabelAnchor]:
-    """Return the middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room
-    first."""
+    """Return the middle of each wanted item, or of all, that so many pixels (h, w) or more show; most room first."""
     from scipy.ndimage import find_objects  # lazy: 0.3 s, only pictures need it
 
     counts = count_pixels(items)

@@ -100,9 +100,8 @@ def _make_background(size: tuple[int, int], background: str | None) -> Any:
     try:
         top, bottom = (rgb(c) for c in (_LIGHT if background == "light" else (background, background)))
     except ValueError:
-        raise UsageError(
-            f"{background!r} is no background", remedy="Use `light` or a colour such as #FFFFFF."
-        ) from None
+        remedy = "Use `light` or a colour such as #FFFFFF."
+        raise UsageError(f"{background!r} is no background", remedy=remedy) from None
     share = np.linspace(0, 1, size[1])[:, None, None]
     levels = np.rint((top * (1 - share) + bottom * share) * 255).astype(np.uint8)
     return Image.fromarray(np.broadcast_to(levels, (size[1], size[0], 3)).copy())

@@ -1,5 +1,4 @@
-"""Pictures of an edit, before and after under one camera; and of measurements: surfaces in bands of colour, and
-parts of space within pale hulls."""
+"""Pictures of an edit, before and after; of measurements: bands of colour, space within pale hulls; and turntables."""
 
 from __future__ import annotations
 
@@ -7,19 +6,22 @@ import itertools
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from meshforge.common import pluralize
+from meshforge.common import UsageError, pluralize
 from meshforge.geometry import Aabb, Floats, Ints, Shape
 from meshforge.rendering import colors as palette
 from meshforge.rendering import picture
-from meshforge.rendering.camera import Up, View
-from meshforge.rendering.canvas import Canvas, make_contact_sheet
+from meshforge.rendering.camera import Up, View, aim_orbit
+from meshforge.rendering.canvas import Canvas, make_contact_sheet, write_file
 from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, label_colors, rgb
+from meshforge.rendering.paint import paint
 from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, points_to_frame
-from meshforge.rendering.raycast import DrawLayer
+from meshforge.rendering.raycast import DrawLayer, ViewFrame, up_vector
 from meshforge.rendering.scene import to_render_mesh
 from meshforge.symbolic import Surface, SymbolicMesh, find_unchanged
 
@@ -72,13 +74,11 @@ def _count_hulls(before: SymbolicMesh, after: SymbolicMesh) -> tuple[str, str]:
 def draw_changes(
     before: SymbolicMesh, after: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (640, 480)
 ) -> Image:
-    """Return both pictures side by side, each of `size`, under one camera: what an edit changed is marked, the rest as
-    it was.
+    """Return both pictures side by side, each of `size`, under one camera: what an edit changed is marked.
 
     Hulls that only one of them has are removed or made; changed are those of both that have another shape. These have a
     colour and an outline of their own, all but the made ones stripes, and a legend below says what each is. All others
-    have in both pictures the colours that `render` gives them in the first: by label where there are labels, else by
-    hull.
+    have in both pictures the colours that `render` gives them in the first: by label if there are labels, else by hull.
     """
     color_by: ColorBy = "label" if before.labels or after.labels else "hull"
     labels = [{hull.label for hull in mesh.hulls if hull.label} for mesh in (before, after)]
@@ -171,8 +171,7 @@ def draw_heat_map(
 ) -> Image:
     """Return things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
-    most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up; unit: of
-    the legend.
+    most: where the last band begins [m], the first is a quarter as wide; mesh: says what is up; unit: of the legend.
     """
     edges: Floats = np.maximum(most, 1e-9) * np.array([0.25, 0.4, 0.6, 0.8, 1.0])  # after the first band
     colors = np.array([rgb(color) for color in BANDS])
@@ -199,3 +198,58 @@ def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tupl
     pale = DrawLayer(shells, np.tile(rgb(palette.UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
     subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), picture.up_axis(mesh))
     return _draw(subject, size, title=title, legend=legend)
+
+
+FRAMES = 24
+"""Pictures of one turn."""
+FRAME_MILLISECONDS = 110
+_BACKGROUND = "#FFFFFF"  # even, since a GIF has few colours
+_FINE = 2  # rays a pixel, along each side
+_COLORS = 255
+_SAMPLES = 4  # pictures of a turn that its colours are chosen from
+
+
+def draw_turn(mesh: SymbolicMesh, turns: Sequence[float], *, size: tuple[int, int], color_by: ColorBy) -> list[Image]:
+    """Return a picture of a mesh for each turn, all of `size`; 0 is the view `iso`, 1 is once round."""
+    subject = build_subject(mesh, color_hulls(mesh, color_by))
+    bounds = joint_bounds(mesh) or Aabb([-1, -1, -1], [1, 1, 1])
+    frame = ViewFrame(bounds, up_vector(subject.up))
+    pictures = []
+    for camera in aim_orbit(turns, subject.up, size, frame.to_unit(bounds.corners)):
+        canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
+        canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
+        if not subject.layers[0].render_meshes:
+            canvas.write_message("no hulls", canvas.room)
+        pictures.append(canvas.image)
+    return pictures
+
+
+def list_turns(frames: int = FRAMES) -> list[float]:
+    """Return the turns of so many pictures."""
+    return [number / frames for number in range(frames)]
+
+
+def encode_gif(frames: Sequence[Image]) -> bytes:
+    """Return pictures of equal size as a GIF that begins anew for ever; the same pictures give the same bytes.
+
+    Raises UsageError where there is none.
+    """
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
+
+    if not frames:
+        raise UsageError("a GIF of no pictures cannot be made")
+    width, height = frames[0].size
+    some = [frames[k * len(frames) // _SAMPLES] for k in range(min(_SAMPLES, len(frames)))]
+    sheet = Image.new("RGB", (width, height * len(some)))
+    for place, image in enumerate(some):
+        sheet.paste(image, (0, place * height))
+    palette = sheet.quantize(_COLORS, method=Image.Quantize.MEDIANCUT)  # one for all: none flickers
+    first, *others = [image.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE) for image in frames]
+    stream = BytesIO()
+    first.save(stream, "GIF", save_all=True, append_images=others, duration=FRAME_MILLISECONDS, loop=0, optimize=False)
+    return stream.getvalue()
+
+
+def write_gif(path: Path, frames: Sequence[Image]) -> None:
+    """Write pictures as a GIF. Raises UsageError where it cannot be written."""
+    write_file(path, encode_gif(frames))

@@ -42,8 +42,7 @@ def render_thumbnail(
     """Return pixels (height, width, 4): red * 256 + green is the index of a hull plus one, 0 for what is no hull
     (background, opaque pieces); blue is the light there, alpha how much of the pixel is covered. Z points up.
 
-    pose: shown_T_incoming. through: places of hulls that are seen through what lies before them: of each square of two
-    by two pixels, two show them.
+    pose: shown_T_incoming. through: places of hulls seen through what is before them, in two of each four pixels.
     """
     shown = Pose.identity() if pose is None else pose
     non_convex = [piece.surface for piece in mesh.asset.non_convex if piece.surface] if mesh.asset else []

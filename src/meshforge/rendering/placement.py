@@ -43,9 +43,7 @@ class NumberPlace:
 
 
 def place_numbers(
-    items: Ints,
-    sizes: Mapping[int, Mapping[int, TextSize]],
-    known: Mapping[int, LabelAnchor] | None = None,
+    items: Ints, sizes: Mapping[int, Mapping[int, TextSize]], known: Mapping[int, LabelAnchor] | None = None
 ) -> list[NumberPlace]:
     """Return places for the numbers of hulls as far as they are seen and fit; none covers another.
 
@@ -175,8 +173,7 @@ def _integral_image(mask: Any) -> Ints:
 
 
 def find_box_overlaps(boxes: Floats, others: Floats, gap: float) -> Any:
-    """Return which boxes (n, 4) come nearer than `gap` to which others (m, 4): (n, m); left, top, right, bottom
-    [px]."""
+    """Return which boxes (n, 4) come nearer than `gap` to which (m, 4): (n, m); left, top, right, bottom [px]."""
     (left, top, right, bottom), (west, north, east, south) = _columns(boxes), _rows(others)
     return (left - gap < east) & (west - gap < right) & (top - gap < south) & (north - gap < bottom)
 

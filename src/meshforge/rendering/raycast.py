@@ -53,11 +53,6 @@ class ViewFrame:
     def from_unit(self, points: Floats) -> Floats:
         return points * self.unit + self.bounds.center
 
-    @property
-    def ground_height(self) -> float:
-        """The height of the lowest point."""
-        return float((self.to_unit(self.bounds.corners) @ self.upright).min())
-
 
 def up_vector(up: Up) -> Floats:
     """Return the direction (3,) that points up."""
@@ -89,8 +84,7 @@ def cast_layer(layer: DrawLayer, frame: ViewFrame, camera: Camera) -> RayHits:
 
 
 def cast_rays(whole: RayScene, camera: Camera, window: tuple[slice, slice] | None = None) -> RayHits:
-    """Return the first thing of an assembled scene behind each pixel; window: the columns and rows to look in, by
-    default those that it can be seen in."""
+    """Return the first thing of an assembled scene behind each pixel; window: columns and rows, or all."""
     scene = prepare_for_rays(whole, camera.axes[2]) if whole.embree is None else whole
     width, height = camera.size
     triangle = np.full((height, width), -1, np.int64)

@@ -94,8 +94,7 @@ def _ring_faces(profile: Floats, sides: int) -> Ints:
 class RayScene:
     """Triangles (m) with their item, planar facet and normals, in a frame of unit size; embree: the ray caster.
 
-    corners: (m, 3, 3); item, facet: (m,); normals: (m, 3), outward; bent: normals at the corners (m, 3, 3), or NaN
-    where a triangle is flat.
+    corners: (m, 3, 3); item, facet: (m,); normals: (m, 3), outward; bent: at the corners (m, 3, 3), NaN where flat.
     """
 
     corners: Floats
@@ -104,11 +103,6 @@ class RayScene:
     normals: Floats
     bent: Floats
     embree: Any
-
-    @property
-    def is_round(self) -> Any:
-        """Which triangles (m,) belong to a round surface."""
-        return np.isfinite(self.bent[:, 0, 0])
 
     def smooth_normals(self, triangles: Ints, points: Floats) -> Floats:
         """Return the smooth normals at points (n, 3) of round triangles (n,)."""
@@ -188,8 +182,7 @@ def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:
 def window_rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[Floats32, Floats32]:
     """Return origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through pixels.
 
-    columns (w,) and rows (h,) give the n = h * w pixels of a window, row by row; start: how far towards the eye
-    parallel rays begin.
+    columns (w,) and rows (h,) give the n = h * w pixels of a window, by rows; start: of parallel rays, towards the eye.
     """
     right, up = camera.plane_coordinates(columns, rows)
     spread = (right[:, None] * camera.axes[0]).astype(np.float32)[None]

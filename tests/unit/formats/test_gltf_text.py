@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.formats.engine_names.conventions import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
+from meshforge.formats.engine_names import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
 from meshforge.formats.gltf.document import rewrite_json
 from tests.examples import examples
 

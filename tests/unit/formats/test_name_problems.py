@@ -9,7 +9,7 @@ import pytest
 from meshforge.checks import check
 from meshforge.engines import Finding
 from meshforge.formats import load, save
-from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.engine_names import EngineName
 from tests.soups import box
 from tests.unit.cli.in_process import Run
 from tests.unit.formats.test_marked_convex import write_nodes

@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import is_asset
-from meshforge.formats.segmentation.reader import is_segmentation, points_beside, read_segmentation
+from meshforge.formats.segmentation import is_segmentation, points_beside, read_segmentation
 from meshforge.labels.from_files.links import read_semantics
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])

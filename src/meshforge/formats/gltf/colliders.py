@@ -1,5 +1,4 @@
-"""The collision geometry of a scene: the convention that its file keeps to, the nodes that collide by it, and their
-pieces."""
+"""The collision geometry of a scene: the convention of its file, the nodes that collide by it, and their pieces."""
 
 from __future__ import annotations
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece, leaves_volume, place_pieces, place_surface
-from meshforge.formats.engine_names.conventions import godot_kind, holds_colliders, interpret_unreal_shape, unreal_kind
+from meshforge.formats.engine_names import godot_kind, holds_colliders, interpret_unreal_shape, unreal_kind
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.physics import EXTENSIONS, collider_of, has_collider, physics_extension_of, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import Json, entry

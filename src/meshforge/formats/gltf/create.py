@@ -13,12 +13,11 @@ from urllib.parse import quote
 import numpy as np
 
 from meshforge.common import join_names
+from meshforge.formats import engine_names
 from meshforge.formats.base import Loss, Output, nothing_collides_error
-from meshforge.formats.engine_names import conventions
-from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, has_triangles, name_bodies
 from meshforge.formats.gltf.document import BODY, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
-from meshforge.formats.gltf.edit import assign_names, style_of
+from meshforge.formats.gltf.edit import EngineBodies, EngineBody, assign_names, has_triangles, name_bodies, style_of
 from meshforge.formats.gltf.physics import KHR, mass_keys, motion_of
 from meshforge.formats.gltf.physics_style import PhysicsStyle, pose_keys
 from meshforge.formats.gltf.styles import NewPiece
@@ -37,8 +36,7 @@ _JOINT = "join the bodies in Godot, by a HingeJoint3D, SliderJoint3D, PinJoint3D
 def create_gltf(asset: Asset, name: str) -> Output:
     """Return the files of an asset that came from another format.
 
-    Colliders of KHR_physics_rigid_bodies hold bodies and native shapes; where the asset shows nothing, a mesh on each
-    collider's node shows that.
+    Colliders of KHR_physics_rigid_bodies hold bodies and native shapes, shown by meshes where the asset shows nothing.
     """
     path = PurePosixPath(name)
     bodies = [body for body in asset.bodies if body.name != BODY]  # which all formats without bodies have
@@ -65,7 +63,7 @@ def create_gltf(asset: Asset, name: str) -> Output:
     return _pack_new(asset, draft, document, path, lost, renames=True)
 
 
-def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
+def create_for_engine(asset: Asset, name: str, engine: engine_names.CollisionNames) -> Output:
     """Return the files of an asset with the names of an engine; for Godot, rigid bodies where anything moves."""
     if engine.engine != "godot":
         return _create_nodes(asset, name, engine)
@@ -80,7 +78,7 @@ def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionName
     return replace(made, lost=(*made.lost, *(loss for loss in losses if loss.count)))
 
 
-def _create_nodes(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
+def _create_nodes(asset: Asset, name: str, engine: engine_names.CollisionNames) -> Output:
     """The files of an asset whose nodes say by their names what collides; no node is scaled.
 
     For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
@@ -108,7 +106,7 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
             carriers[name] = carriers[joints[0].parent]
     welded = _weld_bodies(asset, carriers)
     moving = {name for name in tree.order if not tree.is_static(name)}
-    found = name_bodies(welded, conventions.GodotBodyNames(), path.stem)
+    found = name_bodies(welded, engine_names.GodotBodyNames(), path.stem)
     draft = _draft_bodies(welded, found.each, path)
     notes, pieces = _add_bodies(draft, welded, found, moving)
     bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
@@ -165,10 +163,9 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
 def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:
     """Add what Godot's importer (modules/gltf/extensions/physics) takes of bodies; notes, and pieces that it does not.
 
-    It joins shapes to the body right above them, lets a body's own mesh go, and takes moments of inertia about the axes
-    of the body only.
+    It joins shapes to the body right above, lets a body's own mesh go, and takes inertias about the body's axes only.
     """
-    style, names = PhysicsStyle(draft, "omi"), conventions.GodotBodyNames()
+    style, names = PhysicsStyle(draft, "omi"), engine_names.GodotBodyNames()
     taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()
     draft.declare_extension(style.marks.name)
     draft.declare_extension(style.marks.shapes)
@@ -184,7 +181,7 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
             if moves and isinstance(piece, NonConvexPiece):
                 lost.append(piece.name)
             else:
-                style.add(NewPiece(piece, conventions.claim_name(names.body, own, taken), node))
+                style.add(NewPiece(piece, engine_names.claim_name(names.body, own, taken), node))
     return notes, lost
 
 

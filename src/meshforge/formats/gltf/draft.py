@@ -58,11 +58,10 @@ class SceneDraft:
         """
         node = self.node(index)
         if index in self.referred.morphed:
-            raise AssetError(
-                f"an animation drives the morph weights of node {node.get('name') or index!r}, whose mesh would go",
-                where=str(self.scene.path),
-                remedy="Leave the hull as it is, or take the animation out of the file.",
-            )
+            called = node.get("name") or index
+            problem = f"an animation drives the morph weights of node {called!r}, whose mesh would go"
+            remedy = "Leave the hull as it is, or take the animation out of the file."
+            raise AssetError(problem, where=str(self.scene.path), remedy=remedy)
         gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
         if "mesh" in gone:
             mesh = entry(self.scene.tree, "meshes", gone["mesh"])
@@ -74,8 +73,7 @@ class SceneDraft:
         return gone
 
     def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
-        """Return a new node below another one, or at the root of the scene; at: before which child, None for the
-        last."""
+        """Return a new node below another one, or at the root; at: before which child, None for the last."""
         nodes: list[Any] = self.tree.setdefault("nodes", [])
         nodes.append(node)
         index = len(nodes) - 1
@@ -105,8 +103,7 @@ class SceneDraft:
     def add_surface_mesh(
         self, points: Floats, faces: Ints, name: str, material: int | None = None, texture: Texture | None = None
     ) -> tuple[int, Floats]:
-        """Return a new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that
-        middle."""
+        """Return a new mesh of vertices (n, 3) and faces (m, 3) about the middle of their box, and that middle (3,)."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
         primitive = self.build_primitive(points - middle, faces, material, texture)
         return self.add_mesh({"name": name, "primitives": [primitive]}), middle

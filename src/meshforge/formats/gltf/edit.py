@@ -1,19 +1,18 @@
 """Writing an edited glTF file: the authored JSON where nothing changed, and all bytes of its buffers; and adding
-colliders to an unmarked one, all of which stays as it is."""
+colliders to an unmarked one, all of which stays as it is. Bodies and hulls under the names of an engine."""
 
 from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
-from meshforge.common import AssetError
-from meshforge.formats import collision_pieces, references
+from meshforge.common import AssetError, join_names
+from meshforge.formats import base, collision_pieces, references, visuals
 from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
-from meshforge.formats.engine_names.bodies import has_triangles, lose_non_convex
-from meshforge.formats.engine_names.conventions import CollisionNames
+from meshforge.formats.engine_names import CollisionNames, claim_name
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
@@ -22,7 +21,8 @@ from meshforge.formats.gltf.physics import body_nodes
 from meshforge.formats.gltf.physics_style import PhysicsStyle
 from meshforge.formats.gltf.styles import EngineStyle, GodotStyle, NewPiece, PlainStyle, Style, UnityStyle, UnrealStyle
 from meshforge.formats.meshfile import gltf_document, gltf_scene
-from meshforge.symbolic import Asset, Geom, NonConvexPiece
+from meshforge.formats.meshfile.surface import stack_triangles
+from meshforge.symbolic import Asset, Body, FeatureKind, Geom, NonConvexPiece, Surface
 
 _ENGINES: dict[Convention, type[EngineStyle]] = {"unreal": UnrealStyle, "godot": GodotStyle, "unity": UnityStyle}
 
@@ -75,11 +75,9 @@ def _edit_draft(
         holder = draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
         style.add(NewPiece(geom, _own_name(geom, document), holder, parent))
     if not draft.expected:
-        raise AssetError(
-            "the edit leaves no collision in this file",
-            where=str(path),
-            remedy="Leave one hull: without any, all its meshes would be taken for collision.",
-        )
+        problem = "the edit leaves no collision in this file"
+        remedy = "Leave one hull: without any, all its meshes would be taken for collision."
+        raise AssetError(problem, where=str(path), remedy=remedy)
     return assign_names(draft, document, renames=style.renames)
 
 
@@ -132,8 +130,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
 def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: CollisionNames | None) -> Output:
     """Return the files of a scene with the hulls of an asset beside it, as colliders of KHR_physics_rigid_bodies.
 
-    engine: by whose names they collide instead. Raises AssetError: a buffer changed since the asset was read, or there
-    is no hull to write.
+    engine: by whose names they collide instead. Raises AssetError: a buffer changed since, or there is no hull.
     """
     marked = GltfDocument(b"", engine.engine if engine else "khr", (), document.bodies)
     lost: list[NonConvexPiece] = []
@@ -181,3 +178,70 @@ def _holder_of(draft: SceneDraft, element: NodeRecord | None, body: int | None) 
             return at
         at = draft.scene.placements[at].parent
     return body
+
+
+_NAMELESS = "body"  # how formats without bodies call the one they have
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EngineBody:
+    """One body; name: of what is seen of it; surfaces: what that is; pieces: what collides, each with its own name."""
+
+    body: Body
+    name: str
+    surfaces: tuple[Surface, ...]
+    pieces: tuple[tuple[Geom | NonConvexPiece, str], ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EngineBodies:
+    """All bodies of an asset that have anything; lost: what the names cannot hold; notes: for the user."""
+
+    each: tuple[EngineBody, ...]
+    lost: tuple[base.Loss, ...]
+    notes: tuple[str, ...]
+
+
+def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies:
+    """Return the bodies of an asset under the names of an engine; stem: of the file, for a body without a name.
+
+    Raises AssetError: there is nothing that collides.
+    """
+    shown, lost = visuals.read_visual_surfaces(asset)
+    found, bare, taken = [], [], set[str]()
+    only = [body.name for body in asset.bodies] == [_NAMELESS]
+    for body in asset.bodies:
+        name = claim_name(engine.body, stem if only else body.name, taken)
+        geoms = [geom for geom in asset.geoms if geom.body == body.name]
+        non_convex = [piece for piece in asset.non_convex if piece.body == body.name and has_triangles(piece)]
+        surfaces = tuple(surface for owner, surface in shown if owner == body.name)
+        is_bare = engine.shows and not surfaces and bool(geoms or non_convex)
+        if is_bare:
+            parts = [(hull.vertices, hull.faces) for hull in (geom.shape.tessellate() for geom in geoms)]
+            parts += [(p.surface.vertices, p.surface.faces) for p in non_convex if p.surface is not None]
+            surfaces = (Surface(*stack_triangles(parts)),)
+            bare.append(name)
+        if non_convex and not engine.takes_non_convex:
+            lost.append(lose_non_convex(engine, non_convex, is_seen=is_bare))
+            non_convex = []
+        prefix = f"{body.name}/" if len(asset.bodies) == 1 or engine.in_bodies else ""
+        pieces: list[Geom | NonConvexPiece] = [*geoms, *non_convex]
+        own = tuple((piece, piece.name.removeprefix(prefix)) for piece in pieces)
+        found.append(EngineBody(body, name, surfaces, own))
+    if not any(family.pieces for family in found):
+        raise base.nothing_collides_error(asset)
+    stands = f"{engine.title} needs a mesh to be seen: what collides stands for it in {join_names(bare, 3)}"
+    kept = tuple(family for family in found if family.surfaces or family.pieces)
+    return EngineBodies(kept, tuple(lost), (stands,) if bare else ())
+
+
+def lose_non_convex(engine: CollisionNames, pieces: Sequence[NonConvexPiece], *, is_seen: bool) -> base.Loss:
+    """Return the loss of non-convex pieces, of which an engine takes none; is_seen: whether they are shown."""
+    why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
+    names = tuple(piece.name for piece in pieces)
+    return base.Loss(FeatureKind.NON_CONVEX, names, why, "written to be seen alone" if is_seen else None)
+
+
+def has_triangles(piece: NonConvexPiece) -> bool:
+    """Return whether a piece has a surface to write."""
+    return piece.surface is not None and len(piece.surface.faces) > 0

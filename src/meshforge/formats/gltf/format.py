@@ -1,5 +1,4 @@
-"""The format glTF as the registry has it, with a variant for each engine that knows collision by name; what a file
-can hold, and what one holds besides hulls."""
+"""The format glTF for the registry, with variants for engines that know names; what files hold besides hulls."""
 
 from __future__ import annotations
 
@@ -11,7 +10,7 @@ from meshforge.common import AssetError
 from meshforge.engines import ENGINES
 from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
-from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
+from meshforge.formats.engine_names import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import Convention, GltfDocument
 from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage

@@ -48,8 +48,7 @@ class EditBase:
 
 
 def prepare_base(source: bytes, scene: GltfScene, name: str) -> EditBase:
-    """Return the file to be edited, which becomes `name`: a `.gltf` as GLB has its first buffer inside, a GLB as text
-    beside.
+    """Return the file to edit, which becomes `name`: its first buffer is inside of a GLB, and beside a text.
 
     A file whose suffix stays keeps its container, whatever the suffix says.
     """

@@ -91,8 +91,7 @@ def _require_object(owner: Json, key: str) -> Json:
 def _read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
     """The shape of a type with its parameters; a tapered one, which no engine has natively, as a polytope.
 
-    default: see `PhysicsExtension`; a capsule with one `radius` (an older form) says its whole height. Raises
-    ValueError: no number.
+    default: see `PhysicsExtension`; a capsule with one `radius` (older) says its height. Raises ValueError: no number.
     """
     match kind:
         case "box":
@@ -119,8 +118,7 @@ _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
 
 def motion_of(asset: Asset, body: Body) -> Json:
-    """Return the `motion` of a body: kinematic where it is the fixed part of something with joints; its mass where
-    known."""
+    """Return the `motion` of a body: kinematic for the fixed part of something with joints; its mass where known."""
     is_kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
     return {**({"isKinematic": True} if is_kinematic else {}), **mass_keys(asset, body)}
 
@@ -141,8 +139,7 @@ def mass_keys(asset: Asset, body: Body) -> Json:
 
 
 def read_motion(node: Json) -> Json:
-    """Return what a node says of how it moves as a body: KHR's `motion`, else OMI's, whose older form is the extension
-    itself.
+    """Return how a node says it moves as a body: KHR's `motion`, else OMI's, in older files the extension.
 
     Zeros of OMI that leave the inertia to the engine are left out.
     """

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.common import join_names
-from meshforge.formats.engine_names import conventions
+from meshforge.formats import engine_names
 from meshforge.formats.gltf.colliders import names_of, nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, name_of
@@ -94,7 +94,7 @@ class PlainStyle(Style):
             return
         draft, node = self.draft, self.draft.node(element.node)
         mesh = node["mesh"]
-        if conventions.holds_colliders(node.get("name")):  # else what lies below would be all that collides
+        if engine_names.holds_colliders(node.get("name")):  # else what lies below would be all that collides
             node["name"] += "_"
         gone = draft.remove_mesh(element.node)
         for at, k in enumerate(kept):  # ahead of other children
@@ -153,13 +153,13 @@ class PlainStyle(Style):
 class EngineStyle(PlainStyle):
     """A hull is a node with a mesh, by whose name, or that of a node above it, an engine takes it for collision."""
 
-    names: conventions.CollisionNames
+    names: engine_names.CollisionNames
 
     def name_piece(self, piece: NewPiece) -> str:
         """Return a name that nothing else in the file has."""
         is_hull = isinstance(piece.what, Geom)
         named = self.names.hull if is_hull else self.names.non_convex
-        return conventions.claim_name(named, piece.own, self.taken)
+        return engine_names.claim_name(named, piece.own, self.taken)
 
     def material_of(self, piece: NewPiece) -> int | None:
         return None
@@ -168,7 +168,7 @@ class EngineStyle(PlainStyle):
 class UnityStyle(EngineStyle):
     """A hull is below a node called `table_colliders`."""
 
-    names: conventions.UnityNames = conventions.UnityNames()
+    names: engine_names.UnityNames = engine_names.UnityNames()
 
     def __init__(self, draft: SceneDraft, stem: str) -> None:
         super().__init__(draft, stem)
@@ -177,11 +177,11 @@ class UnityStyle(EngineStyle):
     def holder_of(self, piece: NewPiece) -> int | None:
         node, names = piece.holder, self.names
         above = "" if node is None else name_of(self.draft.node(node))
-        if node in self.colliding or conventions.holds_colliders(above):
+        if node in self.colliding or engine_names.holds_colliders(above):
             return node
         if node not in self.holders:
-            name = conventions.claim_name(
-                lambda own: names.body(own) + conventions.COLLIDERS, above or self.stem, self.taken
+            name = engine_names.claim_name(
+                lambda own: names.body(own) + engine_names.COLLIDERS, above or self.stem, self.taken
             )
             self.holders[node] = self.draft.add_node({"name": name}, node)
         return self.holders[node]
@@ -191,7 +191,7 @@ class GodotStyle(EngineStyle):
     """A hull is called `table-convcolonly`; `-col` and `-convcol` nodes are seen as well."""
 
     renames = False
-    names = conventions.GodotNames()
+    names = engine_names.GodotNames()
 
     def remove(self, element: NodeRecord) -> None:
         if self._is_visible(element):
@@ -212,16 +212,16 @@ class GodotStyle(EngineStyle):
 
     def _is_visible(self, element: NodeRecord) -> bool:
         names = names_of(self.draft.scene.tree, self.draft.scene.placements[element.node].node)
-        return next(filter(None, map(conventions.godot_kind, names)), None) in ("col", "convcol")
+        return next(filter(None, map(engine_names.godot_kind, names)), None) in ("col", "convcol")
 
     def _strip_suffix(self, element: NodeRecord) -> str:
         """Take the suffix from the name of a node, or of its mesh; the name without it."""
         node = self.draft.node(element.node)
-        if conventions.godot_kind(node.get("name")):
-            node["name"] = conventions.strip_godot_suffix(node["name"])
+        if engine_names.godot_kind(node.get("name")):
+            node["name"] = engine_names.strip_godot_suffix(node["name"])
         mesh = entry(self.draft.tree, "meshes", node["mesh"])
-        if conventions.godot_kind(mesh.get("name")):
-            renamed = {**copy.deepcopy(mesh), "name": conventions.strip_godot_suffix(mesh["name"])}
+        if engine_names.godot_kind(mesh.get("name")):
+            renamed = {**copy.deepcopy(mesh), "name": engine_names.strip_godot_suffix(mesh["name"])}
             node["mesh"] = self.draft.add_mesh(renamed, node["mesh"])
         return next(filter(None, names_of(self.draft.tree, node)), "collision")
 
@@ -231,15 +231,15 @@ class UnrealStyle(EngineStyle):
 
     renames = False
     centred = False  # its older importers take no notice of where a collision node is
-    holds = ("polytope", *conventions.NATIVE_SHAPES)
+    holds = ("polytope", *engine_names.NATIVE_SHAPES)
     lacks = "Unreal has no"
-    names = conventions.UnrealNames()
+    names = engine_names.UnrealNames()
 
     def __init__(self, draft: SceneDraft, stem: str) -> None:
         super().__init__(draft, stem)
         shown = [name_of(node) for node in entries(draft.tree, "nodes") if "mesh" in node]
-        self.rendered = [name for name in shown if name and not conventions.unreal_kind(name)]
-        self.seen = {name for name in self.taken if not conventions.unreal_kind(name)}
+        self.rendered = [name for name in shown if name and not engine_names.unreal_kind(name)]
+        self.seen = {name for name in self.taken if not engine_names.unreal_kind(name)}
         self.numbers = dict[str, Iterator[int]]()
         self.stood_for = dict[str, set[int]]()
 
@@ -259,8 +259,8 @@ class UnrealStyle(EngineStyle):
         assert isinstance(piece.what, Geom)  # Unreal takes no others
         base = self._mesh_seen(piece)
         if base not in self.numbers:
-            self.numbers[base] = conventions.number_hulls(base, self.taken)
-        names = (conventions.unreal_hull(base, piece.what, number) for number in self.numbers[base])
+            self.numbers[base] = engine_names.number_hulls(base, self.taken)
+        names = (engine_names.unreal_hull(base, piece.what, number) for number in self.numbers[base])
         name = next(n for n in names if n.lower() not in self.taken and n.partition("_")[2].lower() not in self.seen)
         self.taken.add(name.lower())
         return name
@@ -271,8 +271,8 @@ class UnrealStyle(EngineStyle):
             others = self.names.body(self.stem), *self.rendered[:1]
             return name_of(holder) if "mesh" in holder else others[-1]
         own = names_of(self.draft.scene.tree, self.draft.scene.placements[piece.source.node].node)
-        if mark := next(filter(conventions.unreal_kind, reversed(own)), ""):
-            return conventions.visible_mesh_of(mark, self.rendered)
+        if mark := next(filter(engine_names.unreal_kind, reversed(own)), ""):
+            return engine_names.visible_mesh_of(mark, self.rendered)
         name = next(filter(None, reversed(own)), "")  # that of the mesh, if it has one
         self.stood_for.setdefault(name, set()).add(piece.source.node)
         return name or self.names.body(self.stem)

@@ -1,5 +1,4 @@
-"""The document of a glTF file: its container, text or GLB, its JSON, in which any value may be of any type, and one
-clear error for all that is damaged."""
+"""The document of a glTF file: its container, its JSON, with values of any type, and one error for all damage."""
 
 from __future__ import annotations
 
@@ -40,8 +39,7 @@ class Container:
 
     @staticmethod
     def of(data: bytes) -> Container:
-        """Return the container in the bytes of a file. Raises ValueError: a GLB that is damaged, or not of version
-        2."""
+        """Return the container in the bytes of a file. Raises ValueError: a damaged GLB, or not of version 2."""
         if data[:4] != MAGIC:
             return Container(data)
         if len(data) < _HEADER + 8:
@@ -144,8 +142,7 @@ def report_damage(where: str) -> Iterator[None]:
 
 
 def parse_json(text: bytes) -> Json:
-    """Return the JSON of a file, `?` for each half of a character in it. Raises ValueError: none, or another
-    version."""
+    """Return the JSON of a file, `?` for half characters in it. Raises ValueError: none, or another version."""
     plain = text.decode("utf-8-sig").rstrip("\0")
     tree = json.loads(plain, parse_constant=_refuse_constant)
     if _SURROGATE.search(plain):

@@ -1,5 +1,4 @@
-"""The numbers of a glTF file: its buffers, wherever they are, views of them, and accessors; and the triangles of its
-meshes, plain, or compressed by Draco."""
+"""The numbers of a glTF file: buffers, views of them, accessors; and the triangles of its meshes, plain or by Draco."""
 
 from __future__ import annotations
 
@@ -73,8 +72,7 @@ class Buffers:
         return data[start : start + length]
 
     def buffer(self, index: Any) -> bytes:
-        """Return the bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it
-        says."""
+        """Return the bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is too short."""
         if index not in self._loaded:
             buffer = entry(self.tree, "buffers", index)
             data = self._fetch(buffer, index)
@@ -102,11 +100,9 @@ class Buffers:
             return self._file(uri).read_bytes()
         except OSError as error:
             why = "is not there" if isinstance(error, FileNotFoundError) else f"cannot be read: {error.strerror}"
-            raise AssetError(
-                f"its buffer {uri[:100]} {why}",
-                where=str(self.path),
-                remedy="Put it there, or export the model as one .glb.",
-            ) from error
+            problem = f"its buffer {uri[:100]} {why}"
+            remedy = "Put it there, or export the model as one .glb."
+            raise AssetError(problem, where=str(self.path), remedy=remedy) from error
 
     def _file(self, uri: str) -> Path:
         """The file of a buffer. Raises OSError: a pipe would be waited for, a device may never end."""
@@ -145,11 +141,9 @@ class Buffers:
         buffers = [b for b in entries(self.tree, "buffers") if isinstance(b, dict)]
         needed += [name for name in _MESHOPT if any(extension(b, name) is not None for b in buffers)]
         if needed:
-            raise AssetError(
-                f"its meshes are compressed by {needed[0]}, which is not read",
-                where=str(self.path),
-                remedy="Export it again without mesh compression (gltfpack: without -c and -cc).",
-            )
+            problem = f"its meshes are compressed by {needed[0]}, which is not read"
+            remedy = "Export it again without mesh compression (gltfpack: without -c and -cc)."
+            raise AssetError(problem, where=str(self.path), remedy=remedy)
 
 
 def decode_data_uri(uri: str) -> bytes:

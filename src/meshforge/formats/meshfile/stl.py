@@ -36,8 +36,7 @@ _COORDINATES = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 class StlText:
     """An STL file taken apart.
 
-    corners: (m, 3, 3) of each triangle; solid: (m,) into `solids`, the names of an ASCII file's solids;
-    binary: whether it is a binary file.
+    corners: (m, 3, 3) of each triangle; solid: (m,) into `solids`, the names in a text; binary: whether it is none.
     """
 
     corners: Floats

@@ -1,5 +1,4 @@
-"""What every mesh file is read into: named surfaces, checked for what no reader may let pass; and the parts of these,
-by groups, objects, nodes and materials."""
+"""What every mesh file is read into: named surfaces, checked for damage, and their parts, by groups and materials."""
 
 from __future__ import annotations
 
@@ -41,8 +40,7 @@ class RawSurface:
 def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     """Return the surfaces that have triangles.
 
-    Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite or
-    so large that its square is none.
+    Raises AssetError at `where`: no triangle, an index without a vertex, a coordinate or its square not finite.
     """
     surfaces = list(surfaces)
     found = [s for s in surfaces if len(s.faces)]
@@ -69,8 +67,7 @@ def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurfac
 
 
 def to_doubles(values: npt.ArrayLike) -> Floats:
-    """Return numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a
-    warning."""
+    """Return numbers in double precision; signalling NaN of a damaged file stays NaN without a warning."""
     with np.errstate(invalid="ignore"):
         return np.asarray(values).astype(np.float64)
 
@@ -122,8 +119,7 @@ def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:
 
 
 def text_of(name: bytes) -> str:
-    """Return a name in a mesh file as text: UTF-8, or what is none taken byte by byte, as Windows has it in the
-    west."""
+    """Return a name in a mesh file as text: UTF-8, or byte by byte, as Windows has it in the west."""
     try:
         return name.decode("utf-8")
     except UnicodeDecodeError:
@@ -170,7 +166,6 @@ def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERI
 
 
 def plain_part_name(name: str) -> str:
-    """Return the name of a part as names of hulls begin in every format: letters, digits and underscores, no digit
-    first."""
+    """Return a part's name as names of hulls begin in every format: letters, digits, underscores, no digit first."""
     plain = _ODD.sub("_", name.strip()).strip("_")
     return plain if plain and not plain[0].isdigit() else f"part_{plain}".rstrip("_")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
 from math import isnan
+from pathlib import Path
 from typing import Literal
 
 from meshforge.common import AssetError, is_file
@@ -15,30 +17,7 @@ from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
 
-_ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
-_NEEDED = {
-    "mujoco": "model",
-    "compiler": "angle eulerseq coordinate meshdir assetdir strippath fitaabb autolimits inertiafromgeom"
-    " inertiagrouprange",
-    "default": "class",
-    "asset": "",
-    "mesh": "name class file content_type vertex face normal texcoord refpos refquat scale maxhullvert inertia builtin"
-    " params smoothnormal",
-    "hfield": "name file content_type nrow ncol size elevation",
-    "model": "name file content_type",
-    "worldbody": "",
-    "body": f"name childclass mocap {_ORIENTATION}",
-    "frame": f"name childclass {_ORIENTATION}",
-    "replicate": "count sep offset euler childclass",
-    "attach": "model body frame prefix",
-    "inertial": f"mass diaginertia fullinertia {_ORIENTATION}",
-    "joint": "name class type pos axis ref range limited damping frictionloss",
-    "freejoint": "name",
-    "geom": f"name class type size fromto mesh hfield fitscale contype conaffinity group mass density shellinertia rgba"
-    f" {_ORIENTATION}",
-    "contact": "",
-    "pair": "geom1 geom2",
-}
+_NEEDED = tomllib.loads(Path(__file__).with_name("collision_elements.toml").read_text(encoding="utf-8"))
 """The elements that collision geometry, masses and joints need, and their attributes."""
 _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
 _FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
@@ -146,11 +125,9 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
         assert node is not None  # it names the file
         called = f"collision geom {first.name!r}" if first.name else "a collision geom"
         others = f" (and {count - 1} more like it)" if count > 1 else ""
-        raise AssetError(
-            f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
-            where=tree.where(node),
-            remedy=references.Resolver(tree.main.path.parent).advice(str(files[first.meshname])),
-        )
+        problem = f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}"
+        remedy = references.Resolver(tree.main.path.parent).advice(str(files[first.meshname]))
+        raise AssetError(problem, where=tree.where(node), remedy=remedy)
     for name in dict.fromkeys(geom.meshname for geom in colliding):
         if name in files and is_file(files[name]):
             mesh_reader.read_content(files[name])

@@ -42,8 +42,7 @@ def create_mjcf(asset: Asset, name: str) -> Output:
     """Return the files of an asset that came from another format.
 
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
-    geoms or meshes, one a file; non-convex pieces meshes as they are, with whose hulls MuJoCo collides; visuals geoms
-    that do not collide.
+    geoms or meshes, one a file; non-convex pieces meshes, whose hulls MuJoCo takes; visuals geoms that do not collide.
     """
     return _Creator(asset, Path(name).stem).build_output()
 

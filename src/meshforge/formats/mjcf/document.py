@@ -20,8 +20,7 @@ class MjcfDocument(Document):
     """The source of an asset read from an MJCF.
 
     sources: the authored files, main first, then in order of mention; names: of the geoms that collide; refusal:
-    MuJoCo's message where it refuses the file, of which then only the collision geometry was read, with masses that may
-    be none.
+    MuJoCo's message where it refuses the file; then only the collision geometry was read, maybe without masses.
     """
 
     sources: tuple[SourceFile, ...]
@@ -35,8 +34,7 @@ class MjcfDocument(Document):
 
 
 def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
-    """Return the names that geoms read as; for each, in MuJoCo's order, the name of its body and its own, empty without
-    one.
+    """Return the names that geoms read as; for each, in MuJoCo's order, its body's name and its own or "".
 
     `body/name`, or `body/geomK` for the K-th geom of a body, visual ones counted too: so a name does not depend on
     contact bits, which a default class may set. A name that begins with `body/` is the whole name: in MuJoCo names are
@@ -172,11 +170,9 @@ class _TreeReader:
             remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
             raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
-            raise AssetError(
-                f"{reference!r} is included twice, or includes itself",
-                where=where,
-                remedy="MuJoCo includes a file at most once; take this <include> away.",
-            )
+            problem = f"{reference!r} is included twice, or includes itself"
+            remedy = "MuJoCo includes a file at most once; take this <include> away."
+            raise AssetError(problem, where=where, remedy=remedy)
         root = self.parse(path, reference)
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")

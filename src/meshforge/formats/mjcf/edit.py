@@ -28,8 +28,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     """Return the files of an asset that was read from an MJCF; without an edit, their own bytes.
 
     MuJoCo compiles what is written, and finds what it found before but for the edited geoms.
-    Raises AssetError: a hull that cannot be removed or made, a reference to a geom that goes, a file that MuJoCo
-    refuses.
+    Raises AssetError: a hull cannot be removed or made, a geom that goes is referred to, MuJoCo refuses a file.
     """
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
@@ -101,11 +100,9 @@ class MjcfEdit:
             if not self.masses.add(changed):
                 break
         if wrong := "masses" if changed else self._find_difference(after):
-            raise AssetError(
-                f"the edited file would differ from the authored one in more than the edit says: {wrong}",
-                where=where,
-                remedy="This is a fault of MeshForge; please report it. Nothing was written.",
-            )
+            problem = f"the edited file would differ from the authored one in more than the edit says: {wrong}"
+            remedy = "This is a fault of MeshForge; please report it. Nothing was written."
+            raise AssetError(problem, where=where, remedy=remedy)
         return texts
 
     def build_texts(self) -> list[bytes]:
@@ -125,11 +122,8 @@ class MjcfEdit:
         if not splices:
             return source.raw
         if source.place is None:
-            raise AssetError(
-                f"the edit is in {source.reference!r}, which is included by an absolute path",
-                where=str(source.path),
-                remedy="Include it by a path relative to the main file.",
-            )
+            problem = f"the edit is in {source.reference!r}, which is included by an absolute path"
+            raise AssetError(problem, where=str(source.path), remedy="Include it by a path relative to the main file.")
         data = xml.apply_splices(source.text.data, splices)
         if number and not (root := xml.parse_xml(data, "an edited file")).children:
             data = xml.apply_splices(data, [xml.Splice(root.inside, root.inside, b"<frame/>")])
@@ -160,8 +154,7 @@ class MjcfEdit:
     def _find_difference(self, after: MjcfModel) -> str:
         """What MuJoCo finds otherwise than the edit says, empty where all is right.
 
-        Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are
-        these.
+        Elements refer to geoms by names, and other elements are as they were: right where the names are.
         """
         if after.model.ngeom != len(self.geoms.geoms):
             return f"{after.model.ngeom} geoms where {len(self.geoms.geoms)} were expected"
@@ -211,11 +204,9 @@ class BodyMasses:
             elif body in self.before.unweighed:
                 why = "a visual mesh that weighs could not be read"
             if node is None or why:
-                raise AssetError(
-                    f"the mass of body {self.before.body_names[body]!r} cannot be kept: {why}",
-                    where=str(self.tree.main.path),
-                    remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
-                )
+                problem = f"the mass of body {self.before.body_names[body]!r} cannot be kept: {why}"
+                remedy = "Let MuJoCo take it from the edited hulls (--mass recompute)."
+                raise AssetError(problem, where=str(self.tree.main.path), remedy=remedy)
             model = self.before.model
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
             text = xml.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))

@@ -140,9 +140,8 @@ class GeomEdits:
         parent = self._owner.get(geom.parent or "")
         node = parent.node if parent else None
         if parent is not None and node is None:
-            raise AssetError(
-                f"hull {geom.name!r} takes after {geom.parent!r}, which is {parent.fixed}", where=str(self.asset.path)
-            )
+            problem = f"hull {geom.name!r} takes after {geom.parent!r}, which is {parent.fixed}"
+            raise AssetError(problem, where=str(self.asset.path))
         is_adjacent = (
             (parent is not None and node is not None and not parent.fixed)
             and self.before.body_of[parent.geoms[0]] == geom.body
@@ -158,11 +157,9 @@ class GeomEdits:
         if body is not None and not place:
             return body
         like = None if known else nearest_name(geom.body, self._poses)
-        raise AssetError(
-            f"hull {geom.name!r} is on body {geom.body!r}, which is {place}",
-            where=str(self.asset.path),
-            remedy=f"The nearest name of a body is {like!r}." if like else None,
-        )
+        problem = f"hull {geom.name!r} is on body {geom.body!r}, which is {place}"
+        remedy = f"The nearest name of a body is {like!r}." if like else None
+        raise AssetError(problem, where=str(self.asset.path), remedy=remedy)
 
     def _parent_volume(self, geom: Geom) -> float:
         """The volume that has the mass of a hull's parent: its own, or that of all hulls in its place."""
@@ -231,8 +228,6 @@ def _refuse_referenced(tree: MjcfTree, removed: dict[str, str]) -> None:
         if name := next((name for name in names if name in removed), None):
             own = attributes.get("name")
             element = f"<{node.tag} name={own!r}>" if own else f"<{node.tag}>"
-            raise AssetError(
-                f"hull {removed[name]!r} cannot be removed: {element} refers to its geom {name!r}",
-                where=tree.where(node),
-                remedy="Take this element out of the file first, or leave the hull out of the edit.",
-            )
+            problem = f"hull {removed[name]!r} cannot be removed: {element} refers to its geom {name!r}"
+            remedy = "Take this element out of the file first, or leave the hull out of the edit."
+            raise AssetError(problem, where=tree.where(node), remedy=remedy)

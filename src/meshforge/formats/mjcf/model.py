@@ -32,8 +32,7 @@ class MjcfModel:
 
     is_whole: whether it is of all that the files say, not of the collision geometry alone. stand_ins: the numbers of
     spheres in the place of visual geoms that cannot be had; unweighed: of bodies of which some mass is not known.
-    elements: of each geom, None for one out of another model. collides: whether each geom takes part in collisions, by
-    its contact bits or by a `<pair>`.
+    elements: of each geom, None for one out of another model. collides: of each, by contact bits or a `<pair>`.
     """
 
     def __init__(

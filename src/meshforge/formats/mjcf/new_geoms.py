@@ -19,10 +19,7 @@ from meshforge.geometry import Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
-_NOT_INHERITED = (
-    *("type", "size", "pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale"),
-    *("mass", "shellinertia"),
-)
+_NOT_INHERITED = (*("type", "size", "pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale", "mass", "shellinertia"),)
 """The attributes that make up the geometry and the mass of a geom; all others are inherited."""
 _LASTING = ("pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale")
 """Those that a default class sets for good: a geom that has others is of another class."""
@@ -72,12 +69,10 @@ class NewGeoms:
         is_spelled_out = parent is not None or is_lasting
         set_by_class = self.context.defaults_of(_MAIN_CLASS) if is_spelled_out else by_class
         if lasting := next((key for key in _LASTING if key in set_by_class), None):
-            raise AssetError(
-                f"hull {geom.name!r} cannot be written: the default class of all geoms sets {lasting!r}, which nothing "
-                "undoes",
-                where=self.tree.where(parent or body),
-                remedy=f"Move {lasting!r} from <default> to the geoms that use it.",
-            )
+            why = f"the default class of all geoms sets {lasting!r}, which nothing undoes"
+            problem = f"hull {geom.name!r} cannot be written: {why}"
+            remedy = f"Move {lasting!r} from <default> to the geoms that use it."
+            raise AssetError(problem, where=self.tree.where(parent or body), remedy=remedy)
         attributes = _complete(geom, attributes, inherited, set_by_class, volume)
         if is_spelled_out:
             rest = {k: v for k, v in inherited.items() if k not in _NOT_INHERITED and v != set_by_class.get(k)}

@@ -83,8 +83,7 @@ class FileReference:
     """A file that an element refers to.
 
     text: as it says; tree: in which the element is, the model's own or that of a sub-model; path: where the file is, or
-    would be; place: where it goes, see `AssetFolders.place`; is_there: whether it is; model: its tree, of a sub-model
-    that is met for the first time.
+    would be; place: where it goes, see `AssetFolders.place`; is_there: whether it is; model: of a new sub-model.
     """
 
     text: str
@@ -145,11 +144,9 @@ def read_submodels(tree: MjcfTree, lines: int) -> dict[Path, bytes]:
 
 
 def output_places(tree: MjcfTree) -> list[str | None]:
-    """Return where each of the authored files goes, relative to the main one's folder; None for one at an absolute
-    path.
+    """Return where each authored file goes, relative to the main one's folder; None: at an absolute path.
 
-    As the `<include>` says, not as the disk is: `../kettle/body.xml` stays so, whatever the main file's folder is
-    called.
+    As the `<include>` says, not as the disk is: `../kettle/body.xml` stays so, whatever the main folder's name.
     """
     found: list[str | None] = [tree.main.path.name]
     main = tree.main.path.parent

@@ -1,7 +1,6 @@
 """What the plain mesh formats have in common: a file is one body, its convex pieces are the hulls.
 
-A writer hands over the new file and the owner that each triangle should have; reading the file back shows whether it
-holds that, and under which names.
+A writer hands over the new file and the owner that each triangle should have; reading it back shows if it does so.
 """
 
 from __future__ import annotations
@@ -159,9 +158,8 @@ class PlainFormat(Format):
             holders = back.get(name, set())
             if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
                 problem = f"the hull {name} cannot be told apart from others in this file"
-                raise AssetError(
-                    problem, where=str(where), remedy="Write an OBJ, which has groups, or a folder of files."
-                )
+                remedy = "Write an OBJ, which has groups, or a folder of files."
+                raise AssetError(problem, where=str(where), remedy=remedy)
         read = {name: min(back[name]) for name in back if name in hulls}
         return {name: now for name, now in read.items() if now != name}
 

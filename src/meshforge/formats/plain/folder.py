@@ -1,5 +1,4 @@
-"""A folder of mesh files as one asset: one body, the pieces of all files its hulls, named after the files; and the
-files of such a folder when it is written."""
+"""A folder of mesh files as one asset, read and written: one body, the pieces of its files its hulls, named so."""
 
 from __future__ import annotations
 
@@ -26,7 +25,7 @@ from meshforge.formats.plain.parts import (
 from meshforge.formats.plain.ply import PlyFormat
 from meshforge.formats.plain.stl import StlFormat, WrlFormat
 from meshforge.formats.references import find_companions
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece
 

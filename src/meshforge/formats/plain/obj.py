@@ -1,5 +1,4 @@
-"""Wavefront OBJ: each connected convex piece of a group is a hull; of authored text an edit changes vertex numbers and
-group lines only."""
+"""Wavefront OBJ: each connected convex piece of a group is a hull; edits change vertex numbers and group lines only."""
 
 from __future__ import annotations
 
@@ -12,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.formats.base import ReadOptions, feature_of_others
-from meshforge.formats.engine_names.conventions import unreal_kind
+from meshforge.formats.engine_names import unreal_kind
 from meshforge.formats.meshfile.obj import ObjGroup, ObjText, arguments, group_name_of, keywords, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat

@@ -56,8 +56,7 @@ def corners_of(parts: Sequence[MeshPart]) -> Floats:
 
 
 def name_file_pieces(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
-    """Return a unique name for each piece: its group's, `geomK` where that has none, with `#k` where it has several
-    pieces."""
+    """Return a unique name for each piece: its group's, else `geomK`; with `#k` where the group has several pieces."""
     unnamed = {k: f"geom{n}" for n, k in enumerate(k for k, name in enumerate(groups) if not name)}
     several = Counter(piece.group for piece in pieces)
     seen: Counter[int] = Counter()

@@ -49,10 +49,9 @@ class _Creator(link_output.LinkCreator):
         names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
         inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
-            fixed = kinematic_tree.LinkJoint(
-                "world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3)
-            )
-            inside += edit.joint_lines(fixed, WORLD, self.links[WORLD], None)
+            link = self.links[WORLD]
+            fixed = kinematic_tree.LinkJoint("world_fixed", None, WORLD, link, Pose.identity(), np.zeros(3))
+            inside += edit.joint_lines(fixed, WORLD, link, None)
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
         version = _WITH_COUPLINGS if self.couplings.by_joint else ".".join(map(str, _VERSION))
@@ -116,10 +115,8 @@ class _Creator(link_output.LinkCreator):
         if renamed:
             notes.append(f"links that SDF has no such names for are written otherwise ({join_names(renamed, 3)})")
         if weightless := [self.links[link] for link in self.weightless]:
-            links = pluralize(len(weightless), "link")
-            notes.append(
-                f"{links} without a mass ({join_names(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"
-            )
+            links = f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)})"
+            notes.append(f"{links}: Gazebo takes 1 kg, with moments of 1 kg m^2")
         return tuple(notes)
 
 

@@ -112,8 +112,7 @@ class ModelResolver(Resolver):
         return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))
 
     def find_model_file(self, reference: str) -> Path | None:
-        """Return the file of a model that an `<include>` names: a file, or the folder of a model; None where it is not
-        there.
+        """Return the file of a model that an `<include>` names, maybe by its folder; None where it is not there.
 
         Raises AssetError: the folder's `model.config` is no XML.
         """
@@ -132,8 +131,7 @@ class ModelResolver(Resolver):
 
 
 def find_main_file(folder: Path) -> Path | None:
-    """Return the SDF file of a model's folder: that of the newest known version which `model.config` names, or
-    `model.sdf`.
+    """Return the SDF file of a model's folder: the newest known version in `model.config`, or `model.sdf`.
 
     None where there is none. Raises AssetError: `model.config` is no XML.
     """

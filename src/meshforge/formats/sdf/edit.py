@@ -135,11 +135,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
 
 
 def _plan_source(
-    asset: Asset,
-    origin: document.SdfDocument,
-    number: int,
-    files: mesh_output.HullFiles,
-    meshes: models.SdfMeshes,
+    asset: Asset, origin: document.SdfDocument, number: int, files: mesh_output.HullFiles, meshes: models.SdfMeshes
 ) -> element_edits.ElementEdits:
     source = origin.sources[number]
     data = source.text.data
@@ -230,11 +226,9 @@ def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> Non
     for body in sorted(edited | plan.ends.keys()):
         inertial = plan.links[body].first("inertial")
         if inertial is not None and frames.is_computed(inertial):
-            raise AssetError(
-                f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here",
-                where=where,
-                remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
-            )
+            problem = f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here"
+            remedy = "Leave it to the new collisions (--mass recompute), or say it in the file."
+            raise AssetError(problem, where=where, remedy=remedy)
 
 
 def list_copies(

@@ -15,7 +15,6 @@ _LEAVES = (
     *("pose", "include", "inertial", "geometry", "parent", "child", "xyz", "limit", "damping", "friction", "mimic"),
     *("ambient", "diffuse", "transparency", "placement_frame"),
 )
-_OFF = ("", "0", "false", "__default__")
 
 
 class SdfFormat(base.Format):

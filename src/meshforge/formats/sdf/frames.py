@@ -140,11 +140,9 @@ def pose_of(owner: Element | None, where: str) -> PoseElement:
         return PoseElement(Pose.identity(), "", owner.line if owner else 0)
     base, old = (element.attributes.get(name, "").strip() for name in ("relative_to", "frame"))
     if old and not base:
-        raise AssetError(
-            f"<pose frame={old!r}> is not read: versions before 1.7 left open what it means, and Gazebo ignores it",
-            where=f"{where}:{element.line}",
-            remedy=f"Write relative_to={old!r} if the pose counts from that frame, else remove the attribute.",
-        )
+        why = "versions before 1.7 left open what it means, and Gazebo ignores it"
+        remedy = f"Write relative_to={old!r} if the pose counts from that frame, else remove the attribute."
+        raise AssetError(f"<pose frame={old!r}> is not read: {why}", where=f"{where}:{element.line}", remedy=remedy)
     if element.attributes.get("rotation_format") == "quat_xyzw":
         return PoseElement(_pose_from_quaternion(element, where), base, element.line)
     found = read_values(element, 6, where) if element.text else np.zeros(6)

@@ -55,8 +55,7 @@ class SdfLink(link_reader.Link):
 @dataclass(slots=True, eq=False)
 class ModelTree:
     """All files as one tree. root: what holds the models; worlds: names of worlds in it, which are read only; scopes:
-    the models, each before those within, in the order of the files; links: by the names of their bodies.
-    """
+    the models, each before those within, in the order of the files; links: by the names of their bodies."""
 
     root: Element
     version: Version

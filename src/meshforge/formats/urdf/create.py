@@ -61,14 +61,11 @@ class _Creator(link_output.LinkCreator):
         sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
         unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:
-            notes.append(
-                f"prismatic joints without limits ({unlimited}) are limited to {edit.UNLIMITED_TRAVEL:g} m each way"
-            )
+            travel = f"{edit.UNLIMITED_TRAVEL:g} m each way"
+            notes.append(f"prismatic joints without limits ({unlimited}) are limited to {travel}")
         if self.chain.light:
-            light = join_names(self.chain.light, 3)
-            notes.append(
-                f"links of {kinematic_tree.LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({light})"
-            )
+            light, mass = join_names(self.chain.light, 3), kinematic_tree.LIGHT_INERTIAL.mass
+            notes.append(f"links of {mass:g} kg stand between joints of one body ({light})")
         # of the name of the world, PyBullet knows that it has no mass
         if weightless := [link for link in self.weightless if link != "world"]:
             notes.append(

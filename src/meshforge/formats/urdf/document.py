@@ -84,13 +84,10 @@ def read_origin(element: Element, where: str) -> Pose:
 
 
 JOINT_KINDS: dict[str, JointKind] = {
-    "fixed": "fixed",
-    "revolute": "revolute",
-    "continuous": "revolute",
-    "prismatic": "prismatic",
+    **kinematic_tree.COMMON_KINDS,
     "floating": "floating",
-    "spherical": "ball",  # of Bullet
-}
+    "spherical": "ball",
+}  # the last of Bullet
 _X = (1.0, 0.0, 0.0)
 
 

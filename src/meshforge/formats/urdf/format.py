@@ -1,5 +1,5 @@
 """The formats URDF and xacro as the registry has them: what they hold, and what a file holds that no conversion takes.
-A xacro file is read as the URDF that it expands to, and written as plain URDF, as no edit fits into a macro."""
+Xacro files are read as the URDF that they expand to, and written as plain URDF, as no edit fits into a macro."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from typing import Any, ClassVar
 
 from meshforge.common import AssetError, import_extra, plain_path
 from meshforge.formats import base
-from meshforge.formats.base import Mass, Output, ReadOptions
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, parse_robot
@@ -101,11 +100,11 @@ class XacroFormat(UrdfFormat):
             return True  # its reader says what is wrong
         return root.tag == "robot" and "name" in root.attributes
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
-        from meshforge.formats.urdf.read import read_urdf  # lazy: only URDF needs it
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
+        from meshforge.formats.urdf import read  # lazy: only URDF needs it
 
         source, included = expand(path, options)
-        asset = read_urdf(path, options, source)
+        asset = read.read_urdf(path, options, source)
         name = self.output_name(path.name)
         note = FileNote(f"expanded by xacro; it is written as plain URDF, {name}, without its macros")
         return replace(asset, files=tuple(dict.fromkeys((*asset.files, *included))), notes=(note, *asset.notes))
@@ -114,10 +113,10 @@ class XacroFormat(UrdfFormat):
         stem = name[: -len(SUFFIX)]
         return stem if stem.lower().endswith(".urdf") else f"{stem}.urdf"
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         raise self._creation_error(asset)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         raise self._creation_error(asset)
 
     def _creation_error(self, asset: Asset) -> AssetError:
@@ -125,7 +124,7 @@ class XacroFormat(UrdfFormat):
         return AssetError("xacro files are read, not written", where=str(asset.path), remedy=remedy)
 
 
-def expand(path: Path, options: ReadOptions) -> tuple[bytes, tuple[Path, ...]]:
+def expand(path: Path, options: base.ReadOptions) -> tuple[bytes, tuple[Path, ...]]:
     """Return the URDF text of a xacro file, its arguments at their defaults, and the files that it includes.
 
     Raises MeshForgeError: xacro is not installed; AssetError: it cannot be read or expanded.

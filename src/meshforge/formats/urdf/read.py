@@ -18,11 +18,9 @@ from meshforge.symbolic import Asset, Body, FileNote, Rgba
 
 
 def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None) -> Asset:
-    """Return the asset in a URDF file, its collision meshes included; source: what counts instead of what the file
-    holds.
+    """Return the asset in a URDF file, its collision meshes included; source: counts instead of what the file holds.
 
-    Raises AssetError naming file, line, link and element: text that is not understood, links and joints that make no
-    tree, a collision mesh that is not there.
+    Raises AssetError naming file, line, link and element: text not understood, links in no tree, a missing mesh.
     """
     where = str(path)
     source = mesh_reader.read_content(path) if source is None else source

@@ -1,5 +1,4 @@
-"""Which prims of a stage collide, the bodies that they are part of, and the contact settings that a new prim
-inherits from them."""
+"""Which prims of a stage collide, the bodies they are part of, and the contact settings that a new prim inherits."""
 
 from __future__ import annotations
 

@@ -13,8 +13,7 @@ from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import prims
 from meshforge.formats.usd.colliders import HULL_NAME, apply_schemas
-from meshforge.formats.usd.layers import PACKAGE_SUFFIX, export_layer, is_crate_wanted, pack_usdz
-from meshforge.formats.usd.stage import BODY, usd
+from meshforge.formats.usd.stage import BODY, PACKAGE_SUFFIX, export_layer, is_crate_wanted, pack_usdz, usd
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Geom, NonConvexPiece

@@ -1,5 +1,4 @@
-"""Writing an edited USD file: the authored bytes where nothing changed, else its root layer with the edit, in which
-bodies keep their masses."""
+"""Writing an edited USD file: its bytes where nothing changed, else the edited root layer, masses of bodies kept."""
 
 from __future__ import annotations
 
@@ -12,7 +11,7 @@ from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames, nothing_collides_error
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd import colliders, layers, prims, stage
+from meshforge.formats.usd import colliders, prims, stage
 from meshforge.formats.usd.edit_stage import ColliderEdit, HullEdit
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number, weigh
 from meshforge.formats.usd.read import read_collisions
@@ -90,31 +89,29 @@ def _build_output(
     notes: list[str],
     names: dict[str, str],
 ) -> Output:
-    suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == layers.PACKAGE_SUFFIX
-    inside = layers.unpack_usdz(document.source) if was_package else {}
+    suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == stage.PACKAGE_SUFFIX
+    inside = stage.unpack_usdz(document.source) if was_package else {}
     first = next(iter(inside), f"{name.stem}.usdc")
-    root, is_package = inside.pop(first, document.source), suffix == layers.PACKAGE_SUFFIX
+    root, is_package = inside.pop(first, document.source), suffix == stage.PACKAGE_SUFFIX
     if is_package and not was_package:
         inside = _read_files_beside(copies, asset)
-    crate = layers.is_crate_wanted(PurePosixPath(first).suffix.lower() if is_package else suffix, root)
-    main = layers.export_layer(layer, crate=crate)
-    is_text = not crate and not layers.is_crate(root)
+    crate = stage.is_crate_wanted(PurePosixPath(first).suffix.lower() if is_package else suffix, root)
+    main = stage.export_layer(layer, crate=crate)
+    is_text = not crate and not stage.is_crate(root)
     if is_text and sum(b"#" in line for line in root.splitlines()) > 1:  # the first names the format
         notes.append("comments in its text are lost, if there are any: USD's library writes an edited layer anew")
     if not is_package:
         return Output(main, inside, dict(copies), tuple(notes), names)
-    package = layers.pack_usdz({first: main, **inside})
+    package = stage.pack_usdz({first: main, **inside})
     return Output(package, {}, dict(copies) if was_package else {}, tuple(notes), names)
 
 
 def _read_files_beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
     for place in copies:
         if place.startswith(".."):
-            raise AssetError(
-                f"it refers to {place}, outside of its folder, which no package can hold",
-                where=str(asset.path),
-                remedy="Write another kind of USD file, or move that file.",
-            )
+            problem = f"it refers to {place}, outside of its folder, which no package can hold"
+            remedy = "Write another kind of USD file, or move that file."
+            raise AssetError(problem, where=str(asset.path), remedy=remedy)
     return {place: path.read_bytes() for place, path in copies.items()}
 
 
@@ -135,7 +132,7 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     with stage.usd(str(asset.path)):
-        files = [asset.path, *(file for file in asset.files if file.suffix.lower() in layers.LAYER_SUFFIXES)]
+        files = [asset.path, *(file for file in asset.files if file.suffix.lower() in stage.LAYER_SUFFIXES)]
         texts = [text for file in files for kind in pxr.UsdUtils.ExtractExternalReferences(str(file)) for text in kind]
     return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
 

@@ -205,11 +205,9 @@ class HullEdit(LayerEdit):
                 if relationship.GetName().startswith(_GROUP_PREFIX) or other.GetPath().HasPrefix(path):
                     continue
                 if any(target.GetPrimPath() == path for target in relationship.GetTargets()):
-                    raise AssetError(
-                        f"{path} cannot be removed: {relationship.GetPath()} refers to it",
-                        where=str(self.scene.path),
-                        remedy="Take that reference out first, or leave the hull.",
-                    )
+                    problem = f"{path} cannot be removed: {relationship.GetPath()} refers to it"
+                    remedy = "Take that reference out first, or leave the hull."
+                    raise AssetError(problem, where=str(self.scene.path), remedy=remedy)
 
 
 class ColliderEdit(LayerEdit):

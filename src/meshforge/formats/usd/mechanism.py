@@ -1,5 +1,4 @@
-"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame: by what
-they say themselves, or by their colliders."""
+"""Joints of a stage that make trees of its bodies, and masses of these, said or by colliders, in the root frame."""
 
 from __future__ import annotations
 
@@ -29,8 +28,7 @@ _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
 def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) -> Mechanism:
-    """Return joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left
-    out."""
+    """Return joints, masses, pairs apart; joints that close a loop, or of kinds that no tree has, are left out."""
     if not bodies.prims:
         return Mechanism()
     hulls: dict[str, list[Shape]] = {name: [] for name in (BODY, *bodies.names.values())}

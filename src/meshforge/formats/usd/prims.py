@@ -43,8 +43,7 @@ class PrimSpace:
         return np.asarray(np.linalg.solve(self.linear, (points - self.offset).T).T)
 
     def split_pose(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
-        """Return a pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None where it would
-        shear."""
+        """Return a pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None if sheared."""
         linear = np.linalg.solve(self.linear, pose.rotation)
         scales = np.linalg.norm(linear, axis=0)
         turn = linear / scales
@@ -141,8 +140,7 @@ def _add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any:
 
 
 def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpace) -> Any:
-    """Return the prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are
-    finest."""
+    """Return the prim of triangles (m, 3) on points (n, 3) about their middle, where floats are finest."""
     local = space.to_local(points)
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
     spec = add_prim(holder, name, "Mesh")

@@ -13,7 +13,7 @@ from meshforge.common import AssetError, GeometryError, MeshForgeError, file_dig
 from meshforge.common.processes import call_isolated, report_progress
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd import colliders, layers
+from meshforge.formats.usd import colliders, stage
 from meshforge.formats.usd.colliders import PrimCollision
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_mesh, read_parts
@@ -32,7 +32,7 @@ def read_usd(path: Path) -> Asset:
     """
     source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        layers.refuse_far_references(path, source)
+        stage.refuse_far_references(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more

@@ -1,5 +1,4 @@
-"""Where a surface shows that a part ends: flat patches that go on inside of a convex piece, and loops of concave edges
-around it; and pieces cut along their planes."""
+"""Where a surface shows that a part ends: flat patches that go on inside, loops of concave edges; and cuts by them."""
 
 from __future__ import annotations
 
@@ -212,8 +211,7 @@ def _measure_hulls(shapes: Sequence[Polytope], interior: Interior) -> float:
 
 
 def _leaves_compact(below: Polytope, above: Polytope, interior: Interior) -> bool:
-    """Whether a half that has little of the interior has that in compact pieces: a small part, not a ring
-    or rim of a larger one."""
+    """Whether a half with little of the interior has it in compact pieces: a small part, no ring or rim of a larger."""
     volumes = [interior.measure(half) for half in (below, above)]
     little = int(volumes[1] < volumes[0])
     if volumes[little] >= _LITTLE * sum(volumes):

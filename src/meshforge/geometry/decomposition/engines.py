@@ -52,6 +52,16 @@ class _Settings:
                 bounds = f"at least {low:g}" if high is None else f"between {low:g} and {high:g}"
                 raise UsageError(f"{value!r} is not {bounds}", where=where, remedy=help)
 
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of a hull, None without a limit."""
+        return self.as_dict()["max_hull_vertices"] or None
+
+    @staticmethod
+    def limit_vertices(most: int) -> dict[str, int]:
+        """Return the fields that say how many vertices a hull may have."""
+        return {"max_hull_vertices": most}
+
     def as_dict(self) -> dict[str, Any]:
         return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
 
@@ -90,12 +100,10 @@ class CoacdSettings(_Settings):
 
     @property
     def max_vertices(self) -> int | None:
-        """The most vertices of a hull, None without a limit."""
         return self.max_ch_vertex if self.decimate else None
 
     @staticmethod
     def limit_vertices(most: int) -> dict[str, int]:
-        """Return the fields that say how many vertices a hull may have."""
         return {"decimate": True, "max_ch_vertex": most}
 
 
@@ -118,16 +126,6 @@ class VhacdSettings(_Settings):
     min_edge_length: int = _option(2, "Parts of fewer voxels than this along every side are not split.", 1, 64)
     find_best_plane: bool = _option(False, "Search the best cut instead of the middle (slow).")
 
-    @property
-    def max_vertices(self) -> int | None:
-        """The most vertices of a hull."""
-        return self.max_hull_vertices
-
-    @staticmethod
-    def limit_vertices(most: int) -> dict[str, int]:
-        """Return the field that says how many vertices a hull may have."""
-        return {"max_hull_vertices": most}
-
 
 @dataclass(frozen=True, slots=True)
 class HullSettings(_Settings):
@@ -136,13 +134,6 @@ class HullSettings(_Settings):
     engine: ClassVar[str] = "hull"
     package: ClassVar[str] = "scipy"
     max_hull_vertices: int = _option(0, "Most vertices of the hull; 0 sets no limit.", 0)
-
-    @property
-    def max_vertices(self) -> int | None:
-        """The most vertices of the hull, None without a limit."""
-        return self.max_hull_vertices or None
-
-    limit_vertices = VhacdSettings.limit_vertices
 
 
 DecomposeSettings = CoacdSettings | VhacdSettings | HullSettings
@@ -202,8 +193,7 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
 
 
 def _supervise(command: list[str], log: Path, control: EngineControl, started: float) -> int:
-    """The exit code of a command, which is killed when it is cancelled or time is up; log: a file for its errors;
-    started: when that began."""
+    """The exit code of a command, killed when cancelled or out of time since `started`; log: a file for its errors."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
     if parent_process() is not None:  # one of several workers, which share the processors; results are the same
         environment.setdefault("OMP_NUM_THREADS", "1")

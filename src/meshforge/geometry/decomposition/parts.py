@@ -56,8 +56,7 @@ def stack_parts(found: Sequence[SurfaceParts]) -> SurfaceParts:
 
 
 def separate_parts(vertices: Floats, faces: Ints, parts: SurfaceParts) -> SurfaceParts:
-    """Return the parts of vertices (n, 3) and faces (m, 3) with each connected patch a part of its own, of the same
-    name.
+    """Return the parts of vertices (n, 3) and faces (m, 3), each connected patch a part of the same name.
 
     A patch of less than a hundredth of the area of the largest one of its part is noise: it joins what it touches most.
     Where there are more than 2000 patches, the parts stay what they are.

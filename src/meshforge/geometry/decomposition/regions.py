@@ -1,5 +1,4 @@
-"""Regions of a surface between its concave edges, each mostly of one part or of one side of a part; and the fine pieces
-that are of each."""
+"""Regions of a surface between its concave edges, each mostly of one part or side; and the fine pieces of each."""
 
 from __future__ import annotations
 
@@ -32,8 +31,7 @@ def find_regions(vertices: Floats, faces: Ints) -> Ints:
 def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
     """Return what the regions of a solid, of welded vertices (n, 3) [m] and faces (m, 3), enclose of it: each with the
     holes closed where it meets others, as far as these lie about in planes. Nothing where one region encloses all, or
-    the solid is open.
-    """
+    the solid is open."""
     proper = drop_degenerate(vertices, faces)
     numbers, regions = np.unique(find_regions(vertices, proper), return_inverse=True)
     if len(numbers) == 1 or not is_closed(faces):
@@ -63,8 +61,7 @@ class FinePiece:
 
 
 def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
-    """Return the connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it
-    is in."""
+    """Return the connected components of faces (m, 3), as the places of their faces, a cavity with its solid."""
     own, volumes, closed = _list_components(vertices, faces)
     found = {number: [places] for number, places in enumerate(own)}
     for number in closed:
@@ -115,8 +112,7 @@ def _corners_of(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
 
 
 def number_pieces(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[FinePiece, ...]:
-    """Return pieces with the region that has most of the surface at each, and its solid; region by region, in the order
-    in which these first come."""
+    """Return pieces with the region that has most of the surface at each, and its solid; by region, first come."""
     from scipy.spatial import cKDTree  # lazy: 0.5 s, half of all imports
 
     faces = drop_degenerate(vertices, faces)

@@ -114,10 +114,7 @@ def _limit_vertices(hull: Polytope, most: int | None) -> Polytope:
 
 
 def _make_hulls(
-    pieces: list[engines.EnginePiece],
-    diagonal: float,
-    settings: engines.DecomposeSettings,
-    note: Callable[[str], None],
+    pieces: list[engines.EnginePiece], diagonal: float, settings: engines.DecomposeSettings, note: Callable[[str], None]
 ) -> list[Polytope]:
     """The convex hull of each piece, or one around it of as many vertices as a hull may have: sheets get a thickness,
     needles and crumbs without an area are dropped.
@@ -139,8 +136,7 @@ def _make_hulls(
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Return where results are usually kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else
-    `~/.cache/meshforge`."""
+    """Return where results are kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else `~/.cache/meshforge`."""
     if own := environment.get("MESHFORGE_CACHE"):
         return Path(own)
     base = environment.get("XDG_CACHE_HOME")

@@ -69,8 +69,7 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
 
 
 def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int]:
-    """Return the mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close
-    it.
+    """Return the mesh with caps on its holes, and how many these were; 0 where planar caps do not close it.
 
     rough: of the size of a hole, how far from a plane its rim may be to count as planar. Where flat caps do not close
     the mesh, as an edge of one may be there already, holes are closed by fans around the middles of their rims.
@@ -93,8 +92,7 @@ def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int
 
 
 def volume_inside(vertices: Any, faces: Any) -> float | None:
-    """Return the volume [m^3] inside of triangles with their planar holes closed, None where they are open all the
-    same."""
+    """Return the volume [m^3] inside of triangles with their planar holes closed, None where they stay open."""
     try:
         mesh, _ = cap_holes(clean_triangles(vertices, faces))
     except GeometryError:

@@ -1,5 +1,4 @@
-"""One labelling picture, drawn: the numbered one, and the plain one under the same camera; lit surfaces and dark lines,
-without shadows, so that it is quick."""
+"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines, no shadows, for speed."""
 
 from __future__ import annotations
 
@@ -17,7 +16,7 @@ from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
 from meshforge.rendering.paint import BORDER, LineStrengths, shade, trace_lines
 from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
-from meshforge.rendering.raycast import RayHits, ViewFrame, find_steps, neighbour_slices
+from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, find_steps, neighbour_slices
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -68,7 +67,7 @@ class LabelingCanvas:
 
         name, frame = arrangement.describe(view), arrangement.view_frame
         camera = arrangement.camera(view, self.drawing_size)
-        hits = arrangement.cast_solid(camera)
+        hits = cast_rays(arrangement.solid_scene, camera)
         items, drawing = arrangement.hull_pixels(hits), self._trace_ink(hits)
         faint = arrangement.cast_faint(camera)
         if faint is not None:  # it shows where nothing else does

@@ -37,12 +37,10 @@ _FEW = 0.85  # what a picture of some hulls only is worth beside one of all in p
 def draw_labeling_pictures(
     mesh: SymbolicMesh, *, hulls: Collection[str] | None = None, most: int = 6, size: int = 1024, up: Up | None = None
 ) -> tuple[LabelingPicture, ...]:
-    """Draw views chosen so that each of `hulls`, by default all, is seen and numbered in at least one: by the number
-    that a mapping gives it, else by its index.
+    """Draw views in which each of `hulls`, by default all, is seen and numbered: by a mapping, else by its index.
 
-    At most `most` of them show the mesh as it is, the most telling first. Hulls that none of these shows are shown
-    from close up, or alone among faint others, in further ones. Hulls beside `hulls` are pale and have no number. All
-    are orthographic.
+    At most `most` of them show the mesh as it is, the most telling first; further ones, hulls that these do not show,
+    from close up or alone among faint others. Hulls beside `hulls` are pale, without a number. All are orthographic.
 
     size: pixels along each side; up: the axis that points up, by default that of the mesh. Same input, same pictures.
     Raises UsageError for hulls that are not there, and for an impossible number or size of pictures.
@@ -163,8 +161,7 @@ def _group_near(subject: LabelingSubject, left: Sequence[int]) -> tuple[int, ...
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
-    """Return at most so many views, the most telling first; quality: how well each shows each hull (n,), from 0 to
-    1."""
+    """Return so many views at most, the most telling first; quality: how well each shows each hull (n,), 0 to 1."""
     taken: list[View] = []
     while len(taken) < min(most, len(quality)):
         before = _value_of(taken, quality)

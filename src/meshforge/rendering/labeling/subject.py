@@ -18,11 +18,13 @@ from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
-_VIEWS: tuple[View, ...] = (
+_BEST_KNOWN: tuple[View, ...] = (
     "front-right-above", "front-left-above", "front", "back-left-above", "back-right-above", "top", "right", "left",
     "back", "bottom", "front-left-below", "front-right-below", "back-left-below", "back-right-below",
 )  # fmt: skip
-VIEW_WORDS: Mapping[View, str] = {view: re.sub(r"(.+)-(.+)-", r"from the \1 \2, ", view) for view in _VIEWS}
+VIEW_WORDS: Mapping[View, str] = {
+    view: "from the {} {}, {}".format(*view.split("-")) if "-" in view else view for view in _BEST_KNOWN
+}
 """What each view is called; those that people know things best by come first."""
 NEUTRAL = rgb("#C9C4BB")
 """The material of hulls that are drawn plain, and of a visual mesh that has no colour."""
@@ -137,18 +139,13 @@ class Arrangement:
         items = self.hull_pixels(hits)
         return count_pixels(items, len(self.subject.render_meshes)) / items.size
 
-    def cast_solid(self, camera: Camera) -> RayHits:
-        """Return what the pixels show of the hulls that are drawn in full."""
-        return cast_rays(self._solid_scene, camera)
-
     def cast_faint(self, camera: Camera) -> RayHits | None:
         """Return what the pixels show of the faint hulls and of what is no hull, None where there is neither."""
         scene = self._faint_scene
         return cast_rays(scene, camera) if len(scene.corners) else None
 
     def cast_visual(self, camera: Camera) -> RayHits | None:
-        """Return what the pixels show of the visual mesh; None where there is none, and where some hulls are drawn
-        alone: what is around them would hide all."""
+        """Return what pixels show of the visual mesh; None without one, and where it would hide hulls drawn alone."""
         if len(self.solid) < len(self.subject.render_meshes) or not self.subject.visuals[0]:
             return None
         return cast_rays(self._visual_scene, camera)
@@ -162,13 +159,14 @@ class Arrangement:
         return build_scene(render_meshes, self.view_frame.bounds.center, self.view_frame.unit)
 
     @cached_property
-    def _solid_scene(self) -> RayScene:
+    def solid_scene(self) -> RayScene:
+        """The hulls that are drawn in full."""
         return self._build_scene([self.subject.render_meshes[k] for k in self.solid])
 
     @cached_property
     def _preview_scene(self) -> RayScene:
         """The solid hulls for previews from all sides, in which it is no matter which of two in one place is seen."""
-        return prepare_for_rays(self._solid_scene, None)
+        return prepare_for_rays(self.solid_scene, None)
 
     @cached_property
     def _visual_scene(self) -> RayScene:

@@ -59,8 +59,7 @@ class CollisionNames(ABC):
 
 
 def clean_name(name: str, not_taken: str) -> str:
-    """Return a name without characters that an engine changes, and without marks of any; not_taken: a pattern of
-    them."""
+    """Return a name without marks of engines and characters that one changes; not_taken: a pattern of these."""
     name = re.sub(not_taken, "_", name)
     while (bare := strip_godot_suffix(_UNREAL.sub("", name, count=1))) != name:
         name = bare
@@ -68,8 +67,7 @@ def clean_name(name: str, not_taken: str) -> str:
 
 
 def claim_name(named: Callable[[str], str], wanted: str, taken: set[str]) -> str:
-    """Return what `named` makes of a name, or of it with a number, that is not taken, lower case; it is taken from then
-    on."""
+    """Return what `named` makes of a name, with a number where that is taken (lower case); it is taken from then on."""
     name, number = named(wanted), 2
     while name.lower() in taken:
         name, number = named(f"{wanted}-{number}"), number + 1
@@ -97,8 +95,7 @@ def visible_mesh_of(name: str, meshes: Sequence[str]) -> str:
 
 
 def godot_kind(name: str | None) -> GodotSuffix | None:
-    """Return the suffix by which Godot makes collision of a node or mesh: after `-` or `_` at the end, after `$`
-    anywhere."""
+    """Return the suffix by which Godot makes collision of a node or mesh: after `-` or `_` at the end, or after `$`."""
     return next((kind for kind in _GODOT if has_godot_word(name or "", kind)), None)
 
 
@@ -139,9 +136,7 @@ class UnrealNames(CollisionNames):
     engine: ClassVar[EngineName] = "unreal"
     title: ClassVar[str] = "Unreal"
     holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds - {FeatureKind.NON_CONVEX} | {
-        FeatureKind.BOXES,
-        FeatureKind.SPHERES,
-        FeatureKind.CAPSULES,
+        *(FeatureKind.BOXES, FeatureKind.SPHERES, FeatureKind.CAPSULES)
     }
     shows: ClassVar[bool] = True
     takes_non_convex: ClassVar[bool] = False
@@ -164,8 +159,7 @@ def number_hulls(base: str, names: Iterable[str]) -> Iterator[int]:
 
 
 def interpret_unreal_shape(name: str, hull: Shape) -> tuple[Shape, str | None]:
-    """Return the primitive that the prefix of a name makes of a hull; where it is another shape, the hull and a
-    note."""
+    """Return the primitive that the prefix of a name makes of a hull; of another shape the hull, and a note."""
     kind = unreal_kind(name)
     made = _MAKERS[kind](hull) if kind in _MAKERS else hull
     return (hull, f"{name!r} is no {_WORDS[kind]}: it is read as a hull") if made is None else (made, None)

@@ -1,1 +1,0 @@
-"""Points that another tool gave classes, and the names of these classes."""
