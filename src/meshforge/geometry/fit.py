@@ -15,7 +15,7 @@ from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.native import smallest_ball
 from meshforge.geometry.pose import Pose, quaternions_of_rotations, rotations_of_quaternions
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere, smallest_ball
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape
 
 _MOST_SIDES, _LEAST_SIDES = 48, 12  # faces and edges, the largest first, that a box is laid against

@@ -12,7 +12,7 @@ import numpy as np
 from meshforge.geometry.arrays import Aabb, Bools, Floats
 from meshforge.geometry.fill import SAME_LENGTH, check_extent, choose_axis, pose_along
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere, smallest_ball
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Shape
 
 _RIM_CORNERS = 1024  # of the polygon around a rim that lies askew; 5e-6 of its radius larger
