@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 from pydantic import ValidationError
 
-from meshforge.batch import ExecutionOptions
+from meshforge.batch import ExecutionOptions, describe_jobs
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.label_by_hand import label_by_hand, rename_labels
@@ -233,7 +233,7 @@ def label(given: LabelArguments) -> None:
 
 def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
     if len(project.assets()) > 1:
-        remark(project.plan_labels())
+        remark(describe_jobs(project.jobs()))
     result = _run(project, labeler, json=printer.json, execution=execution, report=printer.print)
     printer.summarize()
     if not printer.json:

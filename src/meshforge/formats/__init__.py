@@ -1,7 +1,5 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -1,7 +1,5 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
@@ -17,7 +15,6 @@ __getattr__, __all__ = export_lazily(
         "decomposition.regions": "FinePiece",
         "decomposition.run": "cache_folder decompose",
         "decomposition.triangles": "is_line is_sheet sheet_hulls volume_inside",
-        "faults": "HullFault describe_fault find_fault",
         "fill": "aabb_box aabb_capsule aabb_cylinder aabb_sphere longest_axis map_to_box shape_of_radius",
         "fit": "tight_box tight_capsule tight_cylinder",
         "inner_shapes": "inscribe shrink",
@@ -32,6 +29,7 @@ __getattr__, __all__ = export_lazily(
         "round_shapes": "Capsule Cylinder Ellipsoid Sphere",
         "shape": "Box Polytope Shape digest is_same_shape",
         "simplify": "Enclosure HullBudget enclose",
+        "solidity": "HullFault describe_fault find_fault",
         "solids": "combine_inertias cut inertia overlap_volume principal_axes volume_of_union",
         "surface": (
             "LEVEL heights_above is_closed is_convex is_convex_hull is_outward neighbour_faces normals_of "

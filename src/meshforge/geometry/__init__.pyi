@@ -35,9 +35,6 @@ from meshforge.geometry.decomposition.triangles import is_line as is_line
 from meshforge.geometry.decomposition.triangles import is_sheet as is_sheet
 from meshforge.geometry.decomposition.triangles import sheet_hulls as sheet_hulls
 from meshforge.geometry.decomposition.triangles import volume_inside as volume_inside
-from meshforge.geometry.faults import HullFault as HullFault
-from meshforge.geometry.faults import describe_fault as describe_fault
-from meshforge.geometry.faults import find_fault as find_fault
 from meshforge.geometry.fill import aabb_box as aabb_box
 from meshforge.geometry.fill import aabb_capsule as aabb_capsule
 from meshforge.geometry.fill import aabb_cylinder as aabb_cylinder
@@ -79,6 +76,9 @@ from meshforge.geometry.shape import is_same_shape as is_same_shape
 from meshforge.geometry.simplify import Enclosure as Enclosure
 from meshforge.geometry.simplify import HullBudget as HullBudget
 from meshforge.geometry.simplify import enclose as enclose
+from meshforge.geometry.solidity import HullFault as HullFault
+from meshforge.geometry.solidity import describe_fault as describe_fault
+from meshforge.geometry.solidity import find_fault as find_fault
 from meshforge.geometry.solids import combine_inertias as combine_inertias
 from meshforge.geometry.solids import cut as cut
 from meshforge.geometry.solids import inertia as inertia

@@ -1,7 +1,5 @@
 """Looking at one asset, given as a mesh or as a file: checks, pictures, and the difference that an edit made."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -1,7 +1,5 @@
 """The labels of a project; a person's label is never overwritten by a machine."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
@@ -19,7 +17,7 @@ __getattr__, __all__ = export_lazily(
         "reference_family": "ReferenceFamily pick_evenly read_reference_family",
         "registry": "LABELERS AssetLabeler make_labeler",
         "spans": "HullSpan SpanReport",
-        "summary": "NameContradiction SourceTally Tally describe_label_plan label_command tally_labels",
+        "summary": "NameContradiction SourceTally Tally label_command tally_labels",
         "vlm.endpoint": "Endpoint approve_host check_approved describe_sending is_approved",
         "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult check_vlm_settings forecast_vlm",
         "vlm.cost": "Usage",

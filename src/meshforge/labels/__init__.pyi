@@ -36,7 +36,6 @@ from meshforge.labels.spans import SpanReport as SpanReport
 from meshforge.labels.summary import NameContradiction as NameContradiction
 from meshforge.labels.summary import SourceTally as SourceTally
 from meshforge.labels.summary import Tally as Tally
-from meshforge.labels.summary import describe_label_plan as describe_label_plan
 from meshforge.labels.summary import label_command as label_command
 from meshforge.labels.summary import tally_labels as tally_labels
 from meshforge.labels.vlm.endpoint import Endpoint as Endpoint

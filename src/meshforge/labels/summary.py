@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import rendering
-from meshforge.batch import AssetJob, describe_jobs
-from meshforge.common import AssetError, MeshForgeError, UsageError, quote_path
+from meshforge.common import MeshForgeError, UsageError, quote_path
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
@@ -111,25 +110,6 @@ def _find_contradictions(
         is_certain = one is not None and one.how in ("word", "pattern") and not one.is_unsure
         if label and one and is_certain and one.label not in (None, label.name):
             yield NameContradiction(asset, names.hull, label.name, one.name, one.label or "")
-
-
-def describe_label_plan(store: Store) -> str:
-    """Return a sentence on how many assets there are, how many have labels, and how many of these a person's."""
-    layout, found = store.layout, store.found
-    places = {asset: layout.labels(asset) for asset in found.ids}
-    jobs = [
-        AssetJob(asset, path, found.base_of(path), places[asset] if places[asset].exists() else None)
-        for asset, path in found.ids.items()
-    ]
-    by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)
-    return f"{describe_jobs(jobs)}, {by_people:,} of them by a person"
-
-
-def _has_human_label(store: Store, asset: str) -> bool:
-    try:
-        return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
-    except AssetError:  # reported when its turn comes
-        return False
 
 
 def label_command(folder: Path, asset: str, hull: str, vocabulary: Collection[str]) -> str:

@@ -66,7 +66,6 @@ class Project(Store):
     set_labels_of = labels.set_labels_of
     label = labels.label_project
     forecast_vlm = labels.forecast_vlm
-    plan_labels = labels.describe_label_plan
     tally_labels = labels.tally_labels
     rename_label = rename.rename_label
 

@@ -1,7 +1,5 @@
 """Pictures of symbolic meshes for labelling, reports, thumbnails, terminals: rays and arithmetic, without a display."""
 
-from __future__ import annotations
-
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(

@@ -37,7 +37,6 @@ def compare(
     before: SymbolicMesh,
     after: SymbolicMesh,
     *,
-    view: View = "iso",
     color_by: ColorBy = "label",
     size: tuple[int, int] = (640, 480),
     vocabulary: Sequence[str] = (),
@@ -51,7 +50,7 @@ def compare(
         build_subject(before, first, up=up),
         build_subject(after, color_hulls(after, color_by, vocabulary, known), up=up),
     ]
-    one, other = (_draw(what, size, background, bounds=joint_bounds(before, after), view=view) for what in subjects)
+    one, other = (_draw(what, size, background, bounds=joint_bounds(before, after)) for what in subjects)
     return one, other
 
 
