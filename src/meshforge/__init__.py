@@ -3,8 +3,6 @@
 The names below are the Python interface; each is imported when it is first used, so that `import meshforge` is quick.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from meshforge.common.exports import export_lazily

@@ -1,8 +1,6 @@
 """Assets of a batch checked in every way that is asked for, and written where they were fixed; engines that are
 installed here are asked themselves: what MuJoCo, or PyBullet, says of a file."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

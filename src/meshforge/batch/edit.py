@@ -1,7 +1,5 @@
 """A program run over many assets: each becomes a draft of its output in a worker process, and is then put in place."""
 
-from __future__ import annotations
-
 import shutil
 import time
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """How work on many assets is executed: options, in this process, in worker processes here, or on a Ray cluster."""
 
-from __future__ import annotations
-
 import logging
 import math
 import sys

@@ -1,7 +1,5 @@
 """One writer at a time: a lock that the system releases when its process dies, however it dies."""
 
-from __future__ import annotations
-
 import os
 import threading
 import time

@@ -1,7 +1,5 @@
 """What a person decided on one asset: hulls that rules select there, and edits by hand, replayed after the program."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 

@@ -1,8 +1,6 @@
 """Outputs: drafts, written aside and read back, then put in place one asset after the other, each file by a rename,
 and no file of anyone else's harmed; and all of them as one zip file."""
 
-from __future__ import annotations
-
 import errno
 import os
 import secrets

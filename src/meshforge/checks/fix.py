@@ -1,7 +1,5 @@
 """Hulls brought within the limits of an engine, as far as nothing is lost and little is added."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any

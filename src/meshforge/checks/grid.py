@@ -1,7 +1,5 @@
 """Space in cubic cells: what surfaces cross and hulls fill, what can be reached from outside, and pockets."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 """What every hull and every mesh must be, whatever the engine; and what is legal but odd: slivers, oblong hulls, hulls
 inside of others, pairs that overlap or gape."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np

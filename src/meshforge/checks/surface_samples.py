@@ -1,7 +1,5 @@
 """Points spread evenly over triangles, and by them the distances of very many points to a surface."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

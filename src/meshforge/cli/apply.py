@@ -1,7 +1,5 @@
 """`meshforge apply`: run a program on many assets, or a project's program on its own."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace

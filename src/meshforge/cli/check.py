@@ -1,7 +1,5 @@
 """`meshforge check`: whether hulls are legal, within an engine's limits, fit, leave free what is free, and rest."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter

@@ -1,7 +1,5 @@
 """`meshforge convert`: between formats, or an unedited write-back within one; of one asset, or of very many."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`meshforge cut`: one hull of an asset made two along a plane, before any program sees it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`meshforge decompose`: any mesh into convex hulls."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """`meshforge demo`: the whole loop on the bundled family of tables, as a project in a folder of its own."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`meshforge demonstrate`: show on one asset what is to be done, step by step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path

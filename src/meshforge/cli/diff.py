@@ -1,7 +1,5 @@
 """`meshforge diff`: what an edit changed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

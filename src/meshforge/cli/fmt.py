@@ -1,7 +1,5 @@
 """`meshforge fmt`: a program in its canonical form."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """`meshforge info`: what an asset holds."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any
 

@@ -1,7 +1,5 @@
 """`meshforge label`: labels for the hulls of a project."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any

@@ -1,7 +1,5 @@
 """`meshforge label PROJECT ASSET 'HULLS=LABEL' ...`: labels that a person gives on the command line."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,8 +1,6 @@
 """What `meshforge label` reports: a line for each asset, the summary of a project's labels, the page of `--report`; how
 labels were replaced, and what a dry run would take."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict

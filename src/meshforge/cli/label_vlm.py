@@ -1,7 +1,5 @@
 """`meshforge label --with vlm`: what would be sent, or what a model said and what it cost."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, replace

@@ -1,8 +1,6 @@
 """The `meshforge` command: its list of commands, and how errors reach a person. Other spellings of options are errors
 that name the one, and what is typed becomes values without pydantic, by which Typer reads, where Python alone can."""
 
-from __future__ import annotations
-
 import gc
 import io
 import os

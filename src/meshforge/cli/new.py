@@ -1,7 +1,5 @@
 """`meshforge new`: a project folder for some assets."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

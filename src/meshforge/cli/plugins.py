@@ -1,7 +1,5 @@
 """`meshforge plugins`: what other packages add, and whether it loads."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import typer

@@ -1,7 +1,5 @@
 """`meshforge prepare`: hulls for what has none, before any program sees the assets of a project."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass

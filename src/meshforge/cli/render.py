@@ -1,7 +1,5 @@
 """`meshforge render`: a picture of an asset's hulls, or a GIF in which it turns."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal

@@ -1,8 +1,6 @@
 """The page that `--report` asks for: with a progress bar; and what checks found of assets, where a hundred thousand
 need not be kept for that."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

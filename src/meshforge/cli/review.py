@@ -1,7 +1,5 @@
 """`meshforge review`: how sure each result of a project is, and questions until all are signed off."""
 
-from __future__ import annotations
-
 import shlex
 import sys
 from collections.abc import Mapping, Sequence

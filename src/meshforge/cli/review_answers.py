@@ -1,8 +1,6 @@
 """Questions of a review and replies to them, as text: what is asked, how one replies, replies from a file and from the
 line that a person types, and what they contradict."""
 
-from __future__ import annotations
-
 import json
 import shlex
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """`meshforge samples`: families of assets to try MeshForge on."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

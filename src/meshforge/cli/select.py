@@ -1,7 +1,5 @@
 """`meshforge select`: what an extractor selects on an asset."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`meshforge status`: how far a project is, and what to do next."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """`meshforge studio`: the project in a browser."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """The terminal: JSON to stdout, remarks to stderr, nothing that would control it, and Ctrl-C."""
 
-from __future__ import annotations
-
 import json
 import signal
 import sys

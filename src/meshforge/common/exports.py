@@ -1,7 +1,5 @@
 """The names that a package offers, each imported when it is first used: a command imports only what it needs."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module

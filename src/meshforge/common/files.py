@@ -1,8 +1,6 @@
 """Writes files so that a killed process leaves the old state or the new one, never half; names and finds files, and
 notices when they change."""
 
-from __future__ import annotations
-
 import errno
 import glob
 import hashlib

@@ -1,8 +1,6 @@
 """Plug-ins: what other packages add by entry points. They are found without loading them, loaded when first asked for,
 and named in every error that they cause. Libraries that may be absent, too: extras, and MuJoCo."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass

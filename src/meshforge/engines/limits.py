@@ -2,8 +2,6 @@
 `engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
 test holds the two together."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Assets with the labels that lie beside them: read alone or many, and written into another file."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The collision geometry of a file as a reader finds it: named pieces, convex shapes or surfaces in the root frame."""
 
-from __future__ import annotations
-
 import posixpath
 from collections.abc import Callable, Container, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace

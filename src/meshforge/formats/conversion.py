@@ -1,7 +1,5 @@
 """An asset on its way into another format: turned upright, couplings followed to their drivers, losses reported."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import floor

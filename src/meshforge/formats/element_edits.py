@@ -1,7 +1,5 @@
 """The collision elements of an edited description before they are text: authored, copied or new, named and placed."""
 
-from __future__ import annotations
-
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping, Sequence

@@ -1,8 +1,6 @@
 """The names by which Unreal and Godot know collision, and our own for Unity, which has none (docs/formats.md): the
 marks that tell collision, and how bodies and hulls are called."""
 
-from __future__ import annotations
-
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """The links of a new URDF or SDF, with what an asset of another format has on each: collisions, visuals and a mass."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from types import UnionType
 

@@ -1,7 +1,5 @@
 """Read the links of a URDF or SDF: collisions with their mesh files, each read and cut once, names, and visuals."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Mesh files, and meshes and scenes of trimesh, as symbolic meshes: by their connected convex pieces, or decomposed."""
 
-from __future__ import annotations
-
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The mesh files that a written description gets: one OBJ a hull, and its visuals, copied or converted to OBJ."""
 
-from __future__ import annotations
-
 import os
 import posixpath
 import re

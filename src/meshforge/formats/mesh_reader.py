@@ -1,7 +1,5 @@
 """Read a mesh file of any kind as triangles; refuse files whose bytes are something else than their suffix says."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

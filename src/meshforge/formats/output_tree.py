@@ -1,7 +1,5 @@
 """Put a written asset on disk: where it goes, the whole tree of its files, each file atomically, the main file last."""
 
-from __future__ import annotations
-
 import contextlib
 import filecmp
 import os

@@ -1,7 +1,5 @@
 """Formats of plug-ins: what they give is checked, and whatever they raise names their package."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from inspect import isabstract

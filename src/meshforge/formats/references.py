@@ -1,7 +1,5 @@
 """Files that a file refers to: where a reference leads, what a mesh needs beside it, where each goes in an output."""
 
-from __future__ import annotations
-
 import os
 import posixpath
 import re

@@ -1,8 +1,6 @@
 """Points with a class each, as segmentations (Find3D) and datasets (PartNet) have them in files beside an asset; and
 the parts of a surface by them: each connected patch of triangles of a class."""
 
-from __future__ import annotations
-
 import warnings
 import zipfile
 from collections.abc import Callable, Mapping, Sequence

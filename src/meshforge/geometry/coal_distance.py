@@ -6,8 +6,6 @@ square to the axes; where two curved surfaces touch, up to 1e-6. coal errs where
 so shapes are measured in coordinates where all together is about one long.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import dist, frexp
 from typing import Any

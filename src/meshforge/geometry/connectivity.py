@@ -1,7 +1,5 @@
 """Which triangles of a soup hang together: by shared vertices, across edges, or by the order they are written in."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshforge.geometry.arrays import Bools, Floats, Ints, cross

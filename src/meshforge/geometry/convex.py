@@ -1,7 +1,5 @@
 """The convex hull of any points, made by manifold3d or Qhull and verified afterwards."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import sqrt
 from typing import Any

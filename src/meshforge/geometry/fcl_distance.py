@@ -5,8 +5,6 @@ FCL is wrong by no more than 1e-4 of the diagonal of the shapes at hand; of thos
 200 is taken for up to 6% apart. It is two to three times as slow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import dist
 from typing import Any

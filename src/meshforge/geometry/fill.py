@@ -1,7 +1,5 @@
 """Shapes that fill an axis-aligned box: the primitives that replace hulls, and templates mapped onto their box."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The smallest box, cylinder and capsule around points, the search for them, and the memo of fits."""
 
-from __future__ import annotations
-
 import itertools
 from collections import OrderedDict
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Shapes inside a convex hull: the largest box, cylinder, capsule and sphere, the hull with planes moved inwards."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """What a surface encloses, by manifold3d: how much of it shapes have, and the convex hulls of that."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,8 +1,6 @@
 """Polytopes around a hull that stick out of it as little as can be: planes turned, or vertices moved, by a sequence of
 linear programmes with a trust region (see Conn, Gould and Toint, Trust-Region Methods, 2000)."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any, Self, TypeVar
 

@@ -1,7 +1,5 @@
 """The native cylinder, capsule and sphere of the least radius around shapes, not tessellated; the smallest ball."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Convex pieces of one kind joined, where one convex hull around them adds little and takes nothing of other kinds."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The round primitives: sphere, ellipsoid, cylinder, capsule, and the tessellations that stand in for them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Simpler convex hulls around a convex hull: of few vertices, triangles or flat faces, nothing of it outside."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

@@ -1,8 +1,6 @@
 """Whether a piece of surface counts as a hull: closed, not flat, and as full as its convex hull; and what keeps a shape
 from being one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import floor
 from typing import Literal

@@ -1,7 +1,5 @@
 """Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cuts by planes and intersections."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, assert_never

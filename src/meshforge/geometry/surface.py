@@ -1,7 +1,5 @@
 """Properties of triangle surfaces: closed, convex, facing outwards, planes of faces, flat polygons."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A mesh shown: as a notebook shows it, a picture beside a table of its hulls; and in the browser, in viser."""
 
-from __future__ import annotations
-
 import sys
 import time
 import webbrowser

@@ -1,7 +1,5 @@
 """The hulls of an asset beside the fine pieces of the surface that they stand for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -3,8 +3,6 @@ the probabilities of the one before (auto-context, Tu 2008). The weights of each
 the true label on calibration families (`python -m benchmark.labels consensus`). How reliable each source of labels is
 in a family is found together with the labels by expectation maximization (Dawid and Skene 1979)."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from functools import cache

@@ -1,8 +1,6 @@
 """Hulls described so that the same part of another asset is described alike: a mesh set upright first, since files tilt
 their assets, then a row of numbers for each hull."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from hashlib import blake2b
 

@@ -1,7 +1,5 @@
 """The hulls that are most like each hull of a family: of other meshes, a few of each, and of its own."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor

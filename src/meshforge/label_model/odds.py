@@ -3,8 +3,6 @@
 Costs are in nats.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

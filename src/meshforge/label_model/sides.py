@@ -1,7 +1,5 @@
 """Meshes that lie on another side than it seems are set upright, by hulls of other meshes whose labels are known."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np

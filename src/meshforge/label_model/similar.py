@@ -1,8 +1,6 @@
 """Hulls that look like some hulls, of the same meshes and of others, in steps from alike to hardly alike; and a few
 hulls of a family that all others look like."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

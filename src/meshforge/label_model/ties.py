@@ -1,7 +1,5 @@
 """Order among numbers that are equal but for rounding, which is another on each processor."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from meshforge.geometry import Floats, Ints

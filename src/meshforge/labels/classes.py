@@ -1,8 +1,6 @@
 """Classes of hulls, where nobody named parts: a hull's class is the set of the steps that took it, and its likes are of
 the same class. A class is a label with a made name (`part_a`: the hulls of step 1), kept beside the labels."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from meshforge import language, symbolic, synthesis
@@ -27,8 +25,6 @@ from meshforge.symbolic import (
 
 Rules = frozenset[int]
 """The numbers of the rules that take a hull; none: it is none of the parts."""
-KnownRules = Mapping[str, Mapping[str, Rules]]
-"""Of hulls of which a person showed or said which rules take them: these, by asset and hull."""
 
 
 def infer_classes(

@@ -1,8 +1,6 @@
 """Labels that follow from all that is said of a family: files, names, people and models weighed together, beside the
 hulls that look alike; and the labels that the sources gave, restored."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace

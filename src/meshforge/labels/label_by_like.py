@@ -1,8 +1,6 @@
 """Labels from another family: each hull gets the label of the labelled hulls there that are most like it, and none
 where it is like nothing there."""
 
-from __future__ import annotations
-
 from collections.abc import Generator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The hulls of a project labelled by a labeler, or its labels only shown."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing

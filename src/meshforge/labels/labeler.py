@@ -1,7 +1,5 @@
 """A source of labels: it sees a family of assets and proposes labels for their hulls."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager

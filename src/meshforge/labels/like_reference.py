@@ -1,8 +1,6 @@
 """Labelled hulls of another project, or of a family that ships with MeshForge, by which hulls here are labelled: read
 from there, and kept in `labels/like/NAME.json` as descriptors and labels, without meshes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace

@@ -1,8 +1,6 @@
 """Labels given to hulls beside the labels that are there: a person's are never overwritten by a machine; and labels
 that follow hulls which others replace."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Labels that are there to be taken, in files beside the assets and in names, found without reading any asset."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field

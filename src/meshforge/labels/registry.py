@@ -1,7 +1,5 @@
 """The labelers by what `label --with` takes: those that are built in, one line each, and those of plug-ins."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing

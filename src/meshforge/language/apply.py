@@ -1,7 +1,5 @@
 """One action on one selection, every new shape verified."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

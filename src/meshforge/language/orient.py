@@ -1,7 +1,5 @@
 """The orientation directive, which turns a mesh into the canonical frame that its landmarks ask for."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import hypot

@@ -1,8 +1,6 @@
 """Rules, and every node below a program in words: as text in canonical form, of which `parse` is the inverse, and in
 plain sentences for people who do not read the language."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import assert_never
 

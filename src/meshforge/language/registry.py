@@ -1,7 +1,5 @@
 """Actions and leaf extractors by name; and how those of plug-ins go to another process."""
 
-from __future__ import annotations
-
 import copyreg
 import pickle
 import re

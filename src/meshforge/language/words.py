@@ -1,7 +1,5 @@
 """The words of the language: operators, directions and labels, and which labels are written in quotes."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

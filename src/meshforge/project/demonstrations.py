@@ -2,8 +2,6 @@
 or taken out of all demonstrations; answers to questions; and repairs of labels, confirmed or rejected.
 """
 
-from __future__ import annotations
-
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 

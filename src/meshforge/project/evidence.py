@@ -1,8 +1,6 @@
 """What a program is learned from besides demonstrations: answers, results that were accepted or corrected, and repairs
 that are not to be proposed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 

@@ -2,8 +2,6 @@
 results, as far as that counts under the program as it is now; and measures of the results, by which some stand out:
 what is not written yet is made in memory for that."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace

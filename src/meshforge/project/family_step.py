@@ -3,8 +3,6 @@
 `status`, the commands and the studio show the same step, in the same words.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

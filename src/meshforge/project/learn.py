@@ -2,8 +2,6 @@
 accepted, and compared with what it was learned from.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 

@@ -1,8 +1,6 @@
 """What became of a new asset before the program (bodies that were rebuilt, hulls that were left though they likely
 span parts, labels by likeness) in words, as JSON and as doubts; and how probable its edit is, as a review sees it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -6,8 +6,6 @@ Each is compared with the project's labelled assets alone, in a worker process: 
 the other new ones, nor on the number of workers, and no process holds more than these and one new asset.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """A step that is sensible next, and the lines by which commands name it: all of them come from here."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The status of a project, put together from its files and from the stamps of its outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

@@ -4,8 +4,6 @@ How pieces are decomposed is read from the preparations of its assets, so that n
 that bodies are rebuilt, and from when an asset is new, is kept when all assets are prepared.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, fields

@@ -1,7 +1,5 @@
 """Another name for a label, or a name for a class, in every file of a project."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What becomes of a reply to a question of a review: it is kept as events, and then done."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import assert_never
 

@@ -3,8 +3,6 @@
 A sign-off rests on the digests of all that decides an edit: it is void when one of them changes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType

@@ -5,8 +5,6 @@ A result that is accepted by itself was looked at: what each rule selected there
 to it. Who accepts many at once says nothing of each.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice

@@ -1,7 +1,5 @@
 """How far a project is: each asset, the program, what is stale, and the next sensible step."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Undoes what was done to an asset before the program, by the history of the project."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Words and numbers on pictures: fonts, title, legend, and the place on each hull where its number stands."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache

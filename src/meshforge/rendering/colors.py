@@ -1,7 +1,5 @@
 """Colours that are easy to tell apart, with and without colour blindness, and which hull gets which of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, get_args

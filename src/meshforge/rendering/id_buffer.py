@@ -1,8 +1,6 @@
 """Which hull each pixel shows, as numbers: thumbnails to be coloured by who shows them; also those in which certain
 hulls can be seen, from a side where little hides them, else through what hides them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from typing import TypeVar
 

@@ -1,7 +1,5 @@
 """Pixels of a drawing: solid things lit, with their outlines, shells over them, and the soft shadow on the ground."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

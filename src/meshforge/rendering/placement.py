@@ -1,7 +1,5 @@
 """Where the numbers or names of hulls go: onto what is seen of each, or beside it with a line that leads there."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """What each pixel shows: layers of things in a frame of unit size, one ray a pixel."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

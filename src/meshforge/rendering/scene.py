@@ -1,7 +1,5 @@
 """Shapes as triangles to look at, round primitives with smooth normals, and many of them in one ray-casting scene."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

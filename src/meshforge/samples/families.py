@@ -1,7 +1,5 @@
 """The families by name, and writing one into a folder without touching what a user has there."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path

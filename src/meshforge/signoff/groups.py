@@ -1,8 +1,6 @@
 """Questions about groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance; and
 whether assets are turned first, on the asset of a family that shows best what that does."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Likely mistakes in demonstrations, answers and verdicts, and the question about them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 

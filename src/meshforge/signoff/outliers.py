@@ -1,7 +1,5 @@
 """How edits of a family differ in volume, extents, hulls and free space; and those that stand out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache

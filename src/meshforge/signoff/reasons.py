@@ -1,7 +1,5 @@
 """Why the edit of an asset may be wrong, in sentences, and how probable it is that it is right."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace

@@ -1,8 +1,6 @@
 """A family reviewed: the probability of each edit, and the question that makes most edits right for a second of a
 person's time (the expected value of information, Howard 1966)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType

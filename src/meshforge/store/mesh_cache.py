@@ -1,7 +1,5 @@
 """A cache of meshes: an asset is read again once one of its files changed, its labels alone where only they did."""
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, replace

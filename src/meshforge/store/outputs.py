@@ -1,7 +1,5 @@
 """The outputs of a project as they lie there now: whether each is still what was written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,8 +1,6 @@
 """When all assets of a project were prepared last: what assets were there, and from which probability bodies are
 rebuilt of which hulls span parts. Assets that come later are new."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from pydantic import AliasChoices, Field

@@ -2,8 +2,6 @@
 demonstrations/ID.json, and corrections/ID.json, replayed after the program.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory

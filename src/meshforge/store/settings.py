@@ -2,8 +2,6 @@
 labels; the folder that is made with it, and the assets that it names.
 """
 
-from __future__ import annotations
-
 import os
 import tomllib
 from collections.abc import Collection, Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The project folder: its state lies in files alone, every change is one atomic write under the project's lock."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field

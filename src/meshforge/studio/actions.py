@@ -1,8 +1,6 @@
 """Actions between the language and the page: their forms, how they are shown, and what the page sends of them; and the
 operators of extractors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from itertools import combinations, product

@@ -1,7 +1,5 @@
 """Errors with an HTTP status of their own, and every error as the page gets it."""
 
-from __future__ import annotations
-
 from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
 from meshforge.store import ConflictError
 from meshforge.studio.wire.events import Problem

@@ -1,7 +1,5 @@
 """Which project a studio has open: one at a time, or none while its pages show the start page."""
 
-from __future__ import annotations
-
 import multiprocessing
 from collections.abc import Callable
 from contextlib import ExitStack

@@ -1,8 +1,6 @@
 """Labels on the cards of a family: shown as soon as a person gave them, while their files are still being written; and
 what the history says of them: what the last edit of all labels changed, and what is new since propagation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass

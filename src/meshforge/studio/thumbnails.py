@@ -1,7 +1,5 @@
 """Thumbnails: drawn in worker processes on request, the latest request first, and cached on disk."""
 
-from __future__ import annotations
-
 from concurrent.futures import CancelledError, Future
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Descriptors of hulls: numbers that neither the size of the mesh nor a turn about the upright axis changes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import product
 

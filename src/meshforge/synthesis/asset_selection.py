@@ -1,7 +1,5 @@
 """Which asset to demonstrate first, to ask about, to demonstrate next, or to look at before accepting."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice, permutations

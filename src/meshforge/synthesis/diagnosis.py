@@ -3,8 +3,6 @@ demonstration, or selected, by mistake, and answers and verdicts that probably a
 select all the others (minimum description length, Rissanen 1978: the size of a rule against the number of its errors).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace

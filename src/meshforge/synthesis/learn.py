@@ -1,7 +1,5 @@
 """Learns a program from demonstrations (paper, stage III): one run after the other while labels get corrected."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 

@@ -1,8 +1,6 @@
 """One run of learning: rule by rule, each on the meshes that the rules before it make; the program is run again on
 every demonstration before it is returned."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

@@ -1,7 +1,5 @@
 """How a search is limited: the options of learning, and the budget of time that a search checks as it goes."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager

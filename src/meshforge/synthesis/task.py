@@ -1,7 +1,5 @@
 """All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """Hulls replaced by others: one cut along a plane by a person, or those of a body that is rebuilt."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal

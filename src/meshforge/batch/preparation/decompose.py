@@ -1,7 +1,5 @@
 """Hulls for what an asset has none for, by a decomposition engine, and how well they fit what they were made of."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase

@@ -1,7 +1,5 @@
 """The folder of a preparation: what was done as JSON, and the hulls it made as an OBJ that every viewer opens."""
 
-from __future__ import annotations
-
 import codecs
 import json
 import os

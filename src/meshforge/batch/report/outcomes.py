@@ -1,7 +1,5 @@
 """Which outcomes of a run its report shows, and the meshes before and after of each."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """A MuJoCo model of the hulls of a mesh on a plane, made from the mesh itself, whatever its format."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

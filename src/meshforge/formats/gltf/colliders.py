@@ -1,7 +1,5 @@
 """The collision geometry of a scene: the convention of its file, the nodes that collide by it, and their pieces."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 

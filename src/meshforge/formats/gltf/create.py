@@ -1,8 +1,6 @@
 """Making a glTF file from an asset of another format: a node for each body and hull, with colliders of an extension,
 plain, or named for an engine; for Godot, where anything moves, rigid bodies of OMI_physics_body."""
 
-from __future__ import annotations
-
 import copy
 import json
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """A scene being edited: nodes emptied and added, meshes split and made, while no index of the file changes."""
 
-from __future__ import annotations
-
 import copy
 import re
 from collections import Counter

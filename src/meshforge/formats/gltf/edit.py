@@ -1,8 +1,6 @@
 """Writing an edited glTF file: the authored JSON where nothing changed, and all bytes of its buffers; and adding
 colliders to an unmarked one, all of which stays as it is. Bodies and hulls under the names of an engine."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The format glTF for the registry, with variants for engines that know names; what files hold besides hulls."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar

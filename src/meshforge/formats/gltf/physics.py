@@ -1,7 +1,5 @@
 """What physics extensions say of a scene: which nodes are bodies, the shapes they collide with, and their masses."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

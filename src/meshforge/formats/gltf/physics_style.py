@@ -1,7 +1,5 @@
 """How hulls are written where a physics extension marks collision: colliders on nodes, and the shapes they refer to."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Reading a glTF file or GLB: from its bytes to an asset, with what it shows, notes, and names that mark nothing."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

@@ -1,8 +1,6 @@
 """How hulls are written where meshes are collision: all of them, or those that Unreal, Godot or Unity know by name;
 into a scene that has some, beside what an unmarked one shows, and into a new one."""
 
-from __future__ import annotations
-
 import copy
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence

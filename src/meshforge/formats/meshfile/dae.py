@@ -4,8 +4,6 @@ The tags `unit` and `up_axis` are not: PyBullet, MoveIt and yourdfpy ignore both
 themselves. `RawSurface.unit` tells readers of formats whose engines obey it (Gazebo).
 """
 
-from __future__ import annotations
-
 import io
 import re
 import warnings

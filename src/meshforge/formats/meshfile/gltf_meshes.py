@@ -1,7 +1,5 @@
 """The numbers of a glTF file: buffers, views of them, accessors; and the triangles of its meshes, plain or by Draco."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 from dataclasses import dataclass

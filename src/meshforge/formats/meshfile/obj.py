@@ -1,8 +1,6 @@
 """Read Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text. Statements are
 read many at once; those with comments, joined lines or several lengths are made plain first."""
 
-from __future__ import annotations
-
 import codecs
 import re
 from collections.abc import Sequence

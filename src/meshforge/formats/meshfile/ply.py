@@ -1,7 +1,5 @@
 """Read PLY, ASCII and binary, with all properties of its rows."""
 
-from __future__ import annotations
-
 import codecs
 import itertools
 import re

@@ -1,7 +1,5 @@
 """Read STL, binary and ASCII: triangles without shared vertices."""
 
-from __future__ import annotations
-
 import codecs
 import re
 from dataclasses import dataclass

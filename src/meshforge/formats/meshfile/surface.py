@@ -1,7 +1,5 @@
 """What every mesh file is read into: named surfaces, checked for damage, and their parts, by groups and materials."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Read VRML 2.0 as CoACD, V-HACD and MeshLab write it: face sets, each with its own points, none of them moved."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

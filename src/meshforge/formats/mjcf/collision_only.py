@@ -1,7 +1,5 @@
 """Files that MuJoCo refuses, stripped to their collision geometry: what that does not need is left out of the text."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping
 from dataclasses import replace

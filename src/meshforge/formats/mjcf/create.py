@@ -1,7 +1,5 @@
 """Making an MJCF from an asset of another format: nested bodies with joints and masses, geoms for hulls and visuals."""
 
-from __future__ import annotations
-
 import posixpath
 from collections import Counter
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Writing an edited MJCF: other geoms, all else byte for byte as it was, compiled again before it is given out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 

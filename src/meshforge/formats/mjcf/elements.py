@@ -1,7 +1,5 @@
 """XML text of MJCF elements: geoms, joints and masses."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import assert_never
 

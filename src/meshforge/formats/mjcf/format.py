@@ -1,7 +1,5 @@
 """The format MJCF as the registry has it; MJCF in memory: text, and `mujoco.MjSpec`, read like files of a folder."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Iterator

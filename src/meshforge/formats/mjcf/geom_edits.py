@@ -1,7 +1,5 @@
 """What an edit makes of each `<geom>`: left alone, removed, followed by new ones; and what MuJoCo shall make of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """What MuJoCo compiled, in the root frame: bodies, joints, masses, hulls, and whose element each geom is."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import replace
 from functools import cached_property

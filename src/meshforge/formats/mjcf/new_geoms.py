@@ -1,7 +1,5 @@
 """The `<geom>` and `<mesh>` elements of new hulls, written so that default classes around them change nothing."""
 
-from __future__ import annotations
-
 import os
 import posixpath
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Reading an MJCF: its files, unless they are fragments or too large, through MuJoCo to an asset with visuals."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The files that an MJCF refers to: where MuJoCo looks for them, which are missing, where copies of them go."""
 
-from __future__ import annotations
-
 import os
 import posixpath
 import re

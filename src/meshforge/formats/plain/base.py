@@ -3,8 +3,6 @@
 A writer hands over the new file and the owner that each triangle should have; reading it back shows if it does so.
 """
 
-from __future__ import annotations
-
 import itertools
 from abc import abstractmethod
 from collections import Counter

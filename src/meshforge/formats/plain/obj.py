@@ -1,7 +1,5 @@
 """Wavefront OBJ: each connected convex piece of a group is a hull; edits change vertex numbers and group lines only."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Names of pieces, shapes as triangles to write, and what a written file reads back as."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence

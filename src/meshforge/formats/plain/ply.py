@@ -1,7 +1,5 @@
 """PLY: the pieces of the one surface are the hulls, counted in file order; an edited file is written anew."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path

@@ -1,8 +1,6 @@
 """The formats of triangles that only list them: STL, whose pieces are the hulls, counted in file order since it has no
 names; and VRML 2.0, which CoACD writes, a shape a hull: only read, and written back as it is."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Making an SDF from an asset of another format: links, joints, native shapes and mesh files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

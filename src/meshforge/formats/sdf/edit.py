@@ -1,7 +1,5 @@
 """Writing an edited SDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
-from __future__ import annotations
-
 import posixpath
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """The format SDF as the registry has it: what it can hold, and what a file holds that no conversion takes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Poses and frames of an SDF: values as elements hold them, and where all that is named in its models is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The models of an SDF with all that they include; their links and collisions, placed in the root frame."""
 
-from __future__ import annotations
-
 import posixpath
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace

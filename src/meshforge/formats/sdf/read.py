@@ -1,7 +1,5 @@
 """Read an SDF: from its files to an asset with visuals, joints and masses, the files it refers to, and notes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path

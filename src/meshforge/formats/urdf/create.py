@@ -1,7 +1,5 @@
 """Making a URDF from an asset of another format: links, joints, native shapes and mesh files."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is kept of a URDF to write it back, and how its XML is read: links where they are at zero, joints, masses."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path

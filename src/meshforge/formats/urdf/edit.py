@@ -1,7 +1,5 @@
 """Writing an edited URDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,8 +1,6 @@
 """The formats URDF and xacro as the registry has them: what they hold, and what a file holds that no conversion takes.
 Xacro files are read as the URDF that they expand to, and written as plain URDF, as no edit fits into a macro."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import threading

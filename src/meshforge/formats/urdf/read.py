@@ -1,7 +1,5 @@
 """Read a URDF: from its text to an asset, with what its links show, other names of its collisions, and notes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

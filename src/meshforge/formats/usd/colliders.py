@@ -1,7 +1,5 @@
 """Which prims of a stage collide, the bodies they are part of, and the contact settings that a new prim inherits."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Making a USD stage from an asset of another format: a prim for each body, below it its hulls and what it shows."""
 
-from __future__ import annotations
-
 from pathlib import PurePosixPath
 from typing import Any
 

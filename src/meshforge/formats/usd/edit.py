@@ -1,7 +1,5 @@
 """Writing an edited USD file: its bytes where nothing changed, else the edited root layer, masses of bodies kept."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath

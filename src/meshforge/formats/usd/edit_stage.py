@@ -1,8 +1,6 @@
 """Edits of a stage, authored into a copy of its root layer: collision taken from prims and new prims put beside them;
 or hulls beside an unmarked stage, whose own prims stay as they are."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any

@@ -1,8 +1,6 @@
 """The format USD as the registry has it, what a stage holds besides hulls, bodies, joints, masses and visuals, and a
 `Usd.Stage` that is open in memory: its file where that says it all, else the stage as it is, flattened."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

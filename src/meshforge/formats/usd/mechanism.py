@@ -1,7 +1,5 @@
 """Joints of a stage that make trees of its bodies, and masses of these, said or by colliders, in the root frame."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any

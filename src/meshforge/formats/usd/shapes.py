@@ -1,7 +1,5 @@
 """The collision of a prim as convex shapes and non-convex pieces in the root frame, as engines take it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Convex decomposition part by part, so that no hull crosses a boundary between parts that is known."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace

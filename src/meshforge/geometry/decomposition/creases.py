@@ -1,7 +1,5 @@
 """Where a surface shows that a part ends: flat patches that go on inside, loops of concave edges; and cuts by them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

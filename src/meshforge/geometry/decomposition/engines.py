@@ -1,8 +1,6 @@
 """Decomposition engines: the settings of each, one field an option, and each run in a process of its own: it can be
 stopped at once, and a crash in C++ becomes an error."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

@@ -1,8 +1,6 @@
 """Fine convex pieces of a surface, none of which reaches over a part boundary that the surface shows: each connected
 solid decomposed by itself, its pieces cut at creases; with the region of the surface that each is of."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress

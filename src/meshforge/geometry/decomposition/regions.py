@@ -1,7 +1,5 @@
 """Regions of a surface between its concave edges, each mostly of one part or side; and the fine pieces of each."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

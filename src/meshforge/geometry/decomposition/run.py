@@ -3,8 +3,6 @@
 The cache keeps results on disk by content: one file each, written whole or not at all.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -4,8 +4,6 @@ Engines first rebuild an open mesh from voxels, roughly; a closed one they take 
 these are decomposed as thick sheets, of which a slice is taken.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -4,8 +4,6 @@ Run by path, so that it loads nothing but numpy and the engine. Arguments: a fol
 the number of the first one to decompose.
 """
 
-from __future__ import annotations
-
 import ctypes
 import io
 import json

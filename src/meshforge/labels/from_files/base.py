@@ -1,7 +1,5 @@
 """What a file says of the hulls of an asset, and what the names in it mean in the vocabulary of a project."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,8 +1,6 @@
 """Labels for the hulls of a project from files: which file says what the hulls of an asset are, and what it says; a
 labels file, segmented points, or PartNet's semantics of links."""
 
-from __future__ import annotations
-
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass

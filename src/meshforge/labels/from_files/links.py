@@ -1,7 +1,5 @@
 """Labels out of PartNet-Mobility's `semantics.txt`: what the links of an asset are."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Labels out of segmented points: each hull is what most of the points are that it holds."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

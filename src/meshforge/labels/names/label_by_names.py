@@ -1,7 +1,5 @@
 """Labels for the hulls of a project from names of hulls, bodies, meshes and materials, by words or by patterns."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The words in names: split apart, compared with other words, and the label that they stand for together."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Container, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache

@@ -1,8 +1,6 @@
 """Questions asked, once more where something is open, and what their answers say of hulls: read leniently, and added up
 over questions and repeats."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections import Counter, defaultdict

@@ -1,8 +1,6 @@
 """Labels from a model: of exemplars, propagated to all hulls that are like them, or of every hull; and what that would
 cost."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import closing

@@ -1,7 +1,5 @@
 """What is asked about: every hull of each asset, or exemplars; drawn in worker processes, with examples before it."""
 
-from __future__ import annotations
-
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace

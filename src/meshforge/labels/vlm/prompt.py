@@ -1,7 +1,5 @@
 """The questions about hulls of one mesh, or of several of a kind: which hulls in which pictures, and the words."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

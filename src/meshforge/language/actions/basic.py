@@ -1,7 +1,5 @@
 """The actions besides Replace: Add, Delete, Merge, Scale, Shrink and Each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import ClassVar
 

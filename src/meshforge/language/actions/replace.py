@@ -1,7 +1,5 @@
 """Replace: a primitive or a template in the place of hulls."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, get_args

@@ -1,7 +1,5 @@
 """A series of pictures in which each hull of a mesh is seen and numbered at least once, from close up where needed."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np

@@ -2,8 +2,6 @@
 WebSocket on which a page gets all events.
 """
 
-from __future__ import annotations
-
 from asyncio import FIRST_COMPLETED, create_task, get_running_loop, wait
 from secrets import compare_digest
 from typing import Annotated, Any

@@ -2,8 +2,6 @@
 the project: edits, undo and redo, learning, jobs, uploads; and downloads.
 """
 
-from __future__ import annotations
-
 from asyncio import wait, wrap_future
 from collections.abc import Collection
 from concurrent.futures import Future

@@ -1,7 +1,5 @@
 """Serving the studio on this machine until it is stopped: the web application, its errors, and the built page."""
 
-from __future__ import annotations
-
 import logging
 import signal
 import socket

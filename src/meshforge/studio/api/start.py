@@ -1,7 +1,5 @@
 """Routes of the start page: recent projects, folders of this machine, files that are sent, and opening a project."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Depends, Request

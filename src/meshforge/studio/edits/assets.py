@@ -1,7 +1,5 @@
 """Edits of assets, labelled, added, prepared before any program, reviewed and corrected after it; of the vocabulary."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Literal
 

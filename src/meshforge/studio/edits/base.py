@@ -1,7 +1,5 @@
 """The base of all edits, and versions of what pages edit as a whole, so that no page overwrites unseen changes."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Edits of demonstrations and of the orientation, answers given while learning, and the program itself."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from meshforge.batch import action_text

@@ -1,7 +1,5 @@
 """The one edit that a reply to a question is, whatever its kind."""
 
-from __future__ import annotations
-
 from collections import Counter
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Long work that a page asks for: decomposing, labelling, applying, checking, exporting, downloading."""
 
-from __future__ import annotations
-
 from typing import assert_never
 
 from meshforge.studio.jobs.downloads import start_download

@@ -1,7 +1,5 @@
 """Jobs that make a file for the browser: a zip of the outputs, or the report."""
 
-from __future__ import annotations
-
 import shutil
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence

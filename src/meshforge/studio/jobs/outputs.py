@@ -1,8 +1,6 @@
 """Jobs on outputs: running the program, once new assets are prepared as the others were, checking what it wrote, and
 exporting it into a folder of its own."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Collection, Iterable, Mapping

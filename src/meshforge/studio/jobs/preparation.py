@@ -1,7 +1,5 @@
 """Jobs before the program runs: decomposing, propagating labels, and asking a model (and what that would cost)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import Literal

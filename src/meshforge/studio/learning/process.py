@@ -1,7 +1,5 @@
 """What the learning process does: it learns programs, and keeps the meshes of the family in memory."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Calls to the learning process: of each kind only the latest counts, and flags cancel what runs."""
 
-from __future__ import annotations
-
 import mmap
 import os
 import struct

@@ -1,8 +1,6 @@
 """Results of learning as the page shows them: the program, how sure the edits are, and what programs and extractors
 select on each asset."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Learning after every change: a new run, in a process of its own, takes the place of the one before."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from functools import partial

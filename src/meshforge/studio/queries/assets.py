@@ -1,7 +1,5 @@
 """One asset as the page shows it: its hulls and steps, how it is turned upright, and pictures of it."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection, Iterable
 

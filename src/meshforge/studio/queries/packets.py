@@ -2,8 +2,6 @@
 one more action, or the program with corrections; and of its output.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Literal

@@ -1,8 +1,6 @@
 """Programs, extractors and the language in words for the page, checked as they are typed, and what they select; and the
 steps of an asset, replayed."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """The project as a whole and the cards of its assets, as the page shows them, and what its next step depends on."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec

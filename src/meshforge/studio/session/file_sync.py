@@ -1,7 +1,5 @@
 """Keeps what pages show in step with the files of a project: this studio, a command or an editor may change them."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Jobs of a session: each runs in its own thread, one at a time of each kind, and all pages see its progress."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import count

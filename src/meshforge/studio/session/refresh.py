@@ -1,7 +1,5 @@
 """Makes cards and the view of the project in the background after every change."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The session: the one place through which an open studio reads and changes its project."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass

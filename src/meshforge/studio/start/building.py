@@ -2,8 +2,6 @@
 project or nothing of it.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress

@@ -1,8 +1,6 @@
 """Paths that a person types or picks on the start page, the folders of this machine, and the assets in them that a new
 project would have: which they are, and which of them have no hulls."""
 
-from __future__ import annotations
-
 import os
 from collections import Counter
 from collections.abc import Sequence

@@ -1,8 +1,6 @@
 """The start page of a studio: what it shows, and what can be asked there; and the projects that were open before, in a
 small file of the user's state folder."""
 
-from __future__ import annotations
-
 import logging
 import os
 import shutil

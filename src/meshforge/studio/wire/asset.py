@@ -1,7 +1,5 @@
 """One asset and its hulls, the headers of shape packets, and the results of checks."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field

@@ -1,7 +1,5 @@
 """The events that the server sends to every open page over the WebSocket; and errors."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """The project, the cards of its assets in the gallery, how sure their edits are, and the question worth most."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from meshforge.language import Direction

@@ -1,7 +1,5 @@
 """Jobs: requests, progress and outcome; what an edit of all labels did, and the model that can be asked."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from meshforge.formats import DecomposeBy

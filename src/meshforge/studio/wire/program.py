@@ -1,7 +1,5 @@
 """Actions as the page shows and sends them, programs, the outcome of learning, and the language as forms and words."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field

@@ -1,7 +1,5 @@
 """Requests of the page besides edits and jobs, and the short responses."""
 
-from __future__ import annotations
-
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import ActionCall

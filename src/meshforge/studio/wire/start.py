@@ -1,7 +1,5 @@
 """The start page: recent projects, folders of this machine, and what a new project would be made of."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

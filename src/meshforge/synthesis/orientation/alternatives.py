@@ -4,8 +4,6 @@ An extractor is doubted for its nodes and for what fits by accident, as in `cand
 where no landmarks lie along its axis on nearly all meshes, since the meshes then lie in different frames.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 import numpy as np

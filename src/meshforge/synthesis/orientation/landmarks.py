@@ -1,7 +1,5 @@
 """Where the landmarks of some meshes lie, and how much alike the directions between them are."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
 

@@ -1,8 +1,6 @@
 """Looks for the orientation under which every rule has an extractor, and the extractors are smallest, among the
 directives that a person would rather have first."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,8 +1,6 @@
 """The paper's search for one rule's extractor: holes filled, simplest first (algorithm SynthesizeExtractor), and the
 fewest labels to correct for an extractor to match (algorithm AbductiveInference)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,8 +1,6 @@
 """Explains what was shown by a program and wrong labels, where that is more believable than a program alone; and the
 repairs that a run proposes, joined over its rules."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -7,8 +7,6 @@ proposals are right, and hardly any is made on right labels. Without a batch aro
 the proposals are right.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce

@@ -5,8 +5,6 @@ Corrections that change the frame are tried one by one and in pairs, each by lea
 meshes; what is believed about a label and about a program is weighed as in `candidates.py`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations

@@ -1,7 +1,5 @@
 """The ways in which labels may be wrong, most believable first, and what leaves select under each."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp

@@ -5,8 +5,6 @@ Knowing one operand of a set operator turns the goal of the whole into a wider g
 index finds at once what satisfies it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What every leaf selects on many meshes; hulls that no leaf tells apart are one group, one bit."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
