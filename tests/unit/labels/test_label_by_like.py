@@ -234,6 +234,7 @@ def test_hulls_that_are_all_alike_get_a_label(tmp_path: Path) -> None:
     assert [*labels_of(own).values()] == ["cube"] * 6
 
 
+@pytest.mark.slow
 def test_another_kind_is_refused_with_the_nearest_ones(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -155,6 +155,7 @@ def many_clusters(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("many_clusters")
+@pytest.mark.slow
 def test_exemplars_are_asked_about_and_the_rest_is_propagated(tmp_path: Path) -> None:
     project = family(tmp_path, 30)
     first = project.assets()[0]
