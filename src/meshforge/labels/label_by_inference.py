@@ -15,9 +15,6 @@ from meshforge.labels.names.label_by_names import NameLabeler
 from meshforge.store import AssetFacts, Store
 from meshforge.symbolic import NO_PART, Label, match_labels
 
-_READ_AGAIN = frozenset({"name", "file"})
-"""Sources that are asked anew each time, so that what they said before does not count."""
-
 
 class PropagationLabeler(Labeler):
     """Gives each hull the label that all labels of the family together support; labels of people stay.
@@ -67,13 +64,16 @@ class AllLabeler(Labeler):
         problems |= {one.asset: (*problems.get(one.asset, ()), one.error) for one in found if one.error}
         reasons: dict[str, Mapping[str, LabelReason]] = {one.asset: one.reasons for one in by_names}
         reasons |= {one.asset: {**reasons.get(one.asset, {}), **one.reasons} for one in found}
-        given = _merge(by_names, found)
-        steps = _find_step_labels(family)
+        named, filed, steps = _by_asset(by_names), _by_asset(found), _find_step_labels(family)
 
         def speak(asset: str, current: HullLabels) -> HullLabels:
-            kept = {hull: one for hull, one in _evidence_on(current).items() if one.source not in _READ_AGAIN}
+            kept = _evidence_on(current)
+            beside_names = {hull: one for hull, one in kept.items() if one.source != "name"}
             people = {hull: one for hull, one in kept.items() if one.source in symbolic.HUMAN_SOURCES}
-            return {**steps.get(asset, {}), **kept, **given.get(asset, {}), **people}
+            return {
+                **{**steps.get(asset, {}), **kept, **named.get(asset, {})},
+                **{**beside_names, **filed.get(asset, {}), **people},
+            }
 
         inferred = _infer(family, speak, reasons)
         return replace(inferred, assets=_add_problems(inferred.assets, problems), vocabulary=words)
@@ -87,13 +87,9 @@ def _collect(proposal: LabelProposal) -> list[AssetLabels]:
         return list(assets)
 
 
-def _merge(*sources: Sequence[AssetLabels]) -> dict[str, dict[str, Label]]:
-    """What sources say, by asset and hull; the last one counts."""
-    found = dict[str, dict[str, Label]]()
-    for one in (one for some in sources for one in some):
-        given = {hull: known for hull, label in one.given.items() if (known := label_model.evidence_of(label))}
-        found.setdefault(one.asset, {}).update(given)
-    return found
+def _by_asset(found: Sequence[AssetLabels]) -> dict[str, HullLabels]:
+    """What a source says, by asset."""
+    return {one.asset: _evidence_on({hull: label for hull, label in one.given.items() if label}) for one in found}
 
 
 def _add_problems(

@@ -68,11 +68,8 @@ def set_labels_of(
         vocabulary, every = store.vocabulary, _read_digests(store, labels)
         for asset, wanted in labels.items():
             hulls = every[asset]
-            classes = store.layout.classes(asset).exists() and store.labels_and_classes(asset).labels
-            words = {
-                name: label or (symbolic.NO_PART if classes and name in classes else None)
-                for name, label in wanted.items()
-            }
+            classes = store.classes(asset).labels
+            words = {name: label or (symbolic.NO_PART if name in classes else None) for name, label in wanted.items()}
             given = {name: Label(label, confidence, source) if label else None for name, label in words.items()}
             current = symbolic.match_labels(store.labels(asset), hulls).labels
             labelled, outcome = merge_labels(asset, hulls, current, given, vocabulary)

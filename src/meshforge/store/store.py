@@ -79,8 +79,7 @@ class Store:
     @property
     def words(self) -> tuple[str, ...]:
         """The vocabulary, and the classes of hulls that were demonstrated."""
-        files = (read_labels_file(self.layout.classes(asset)) for asset in self.demonstration_ids())
-        classes = {word for file in files for word in file.vocabulary}
+        classes = {word for asset in self.demonstration_ids() for word in self.classes(asset).vocabulary}
         return (*self.vocabulary, *sorted(classes - set(self.vocabulary)))
 
     def set_vocabulary(self, labels: Sequence[str]) -> None:
@@ -216,7 +215,11 @@ class Store:
 
     def labels_and_classes(self, asset: str) -> symbolic.LabelFile:
         """Return the same with the classes of hulls that have no label."""
-        return self.labels(asset).fill(read_labels_file(self.layout.classes(asset)))
+        return self.labels(asset).fill(self.classes(asset))
+
+    def classes(self, asset: str) -> symbolic.LabelFile:
+        """Return the classes of the hulls of an asset; an empty file where there are none."""
+        return read_labels_file(self.layout.classes(asset))
 
     def write_classes(self, texts: Mapping[str, str | None]) -> None:
         """Write files of classes, by asset, under the lock that the caller holds; None removes one."""

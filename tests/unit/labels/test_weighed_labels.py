@@ -194,3 +194,14 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
     assert tree(project.folder / "labels") == once
     project.label("sources")
     assert tree(project.folder / "labels") == files
+
+
+def test_all_keeps_what_files_elsewhere_and_models_gave_beside_names(tmp_path: Path) -> None:
+    project = guessed(tmp_path)
+    kept = {"top": "top", "left_low": "leg", "crumb": "misc"}
+    project.set_labels("t0.obj", kept, source="file", confidence=0.97)
+    project.label()
+    labels = project.labels("t0.obj").labels
+    assert {hull: (labels[hull].name, labels[hull].source) for hull in kept} == {
+        hull: (label, "file") for hull, label in kept.items()
+    }

@@ -121,6 +121,14 @@ def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) ->
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 4
 
 
+def test_a_class_that_is_taken_away_is_no_part_and_a_label_just_goes(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    project.rename_label("part_b", "leg")
+    project.set_labels(SECOND, {"crumb": None, "left_low": None})
+    labels = project.labels(SECOND).labels
+    assert labels["crumb"].name == NO_PART and "left_low" not in labels
+
+
 def test_a_dry_run_writes_no_classes_and_labels_need_none(tmp_path: Path) -> None:
     project = fresh(tmp_path / "a")
     project.demonstrate(FIRST, STEPS)
