@@ -112,8 +112,7 @@ def _find_step_labels(family: LabelFamily) -> dict[str, dict[str, Label]]:
     if not shown or any(_is_named(store, asset, facts) for asset, facts in family.iterate_facts()):
         return {}
     demos = {asset: synthesis.Demonstration(mesh, store.steps(asset), asset) for asset, mesh in shown.items()}
-    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
-    return find_step_labels(shown, demos, (), store.templates(names))
+    return find_step_labels(shown, demos, (), store.templates_in(demos.values()))
 
 
 def _is_named(store: Store, asset: str, facts: AssetFacts) -> bool:

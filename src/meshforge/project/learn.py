@@ -188,8 +188,7 @@ def update_classes(
     feedback = store.feedback()
     fitting, _ = sort_answers(feedback, demos)
     answers = [*list_accepted(store, demos, fitting), *list_corrected(feedback, demos), *fitting]
-    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
-    found = classes.infer_classes(meshes, demos, answers, store.templates(names))
+    found = classes.infer_classes(meshes, demos, answers, store.templates_in(demos.values()))
     if keep:
         classes.keep_classes(store, meshes, found)
     return found
@@ -225,9 +224,8 @@ def learn_program(
     accepted, wrong = list_accepted(store, demos, fitting), list_wrong(feedback, demos, meshes)
     asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings
-    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     ask = _ask_once(asker or confirm) if confirm else None
-    templates = store.templates(names)
+    templates = store.templates_in(demos.values())
     options = options or synthesis.Options()
     wanted = () if options.strategy == "paper" else (*settings.extractors, *options.extractors)
     options = replace(

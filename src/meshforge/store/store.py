@@ -311,6 +311,10 @@ class Store:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
         return batch.load_templates(names, self.layout.templates)
 
+    def templates_in(self, demos: Iterable[synthesis.Demonstration]) -> dict[str, language.Template]:
+        """Return the templates that the steps of demonstrations name. Raises as `templates`."""
+        return self.templates(dict.fromkeys(n for demo in demos for step in demo.steps for n in step.action.templates))
+
     def template_names(self) -> tuple[str, ...]:
         """Return the names of all templates in the project's folder of them, as actions write them."""
         return program_files.list_templates(self.layout)
