@@ -131,7 +131,7 @@ def find_absent_labels(
 
 
 def labels_of_project(project: Project) -> Collection[str]:
-    """Return the labels that hulls of a project can have: its vocabulary, or, without one, those that its assets
-    have."""
+    """Return the labels that hulls of a project can have: its vocabulary, or, without one, those that its assets have;
+    and classes."""
     every = (project.labels(asset).labels.values() for asset in project.layout.labels.ids)
-    return project.vocabulary or {label.name for label in chain.from_iterable(every)}
+    return project.words if project.vocabulary else {*project.words, *(one.name for one in chain.from_iterable(every))}

@@ -41,7 +41,6 @@ _ONLY_FOR = {
     "model": ("vlm",),
     "base_url": ("vlm",),
     "every_hull": ("vlm",),
-    "mode": ("vlm",),
     "max_cost": ("vlm",),
     "like": ("like",),
     "words": ("like",),
@@ -108,7 +107,6 @@ class LabelArguments:
             "--every-hull", help="Let --with vlm ask about every hull, not a few whose labels are propagated."
         ),
     ] = None
-    mode: Annotated[str | None, typer.Option("--mode", hidden=True)] = None
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
@@ -169,7 +167,7 @@ class LabelArguments:
         return labeler
 
     def _read_vlm_settings(self, project: Project) -> VlmSettings:
-        names = ("model", "base_url", "every_hull", "mode", "max_cost")
+        names = ("model", "base_url", "every_hull", "max_cost")
         given = {name: value for name in names if (value := getattr(self, name)) is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
@@ -202,6 +200,8 @@ def label(given: LabelArguments) -> None:
             return
     project = Project.open(given.project)
     if given.rename:
+        others = {name for name, _ in options.list_typed(given.context)} - {"project", "rename"}
+        options.refuse_with(given.context, others, "--rename")
         rename_labels(project, given.rename)
         return
     if given.asset is not None:

@@ -11,8 +11,8 @@ from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
-from meshforge.project import Project
-from meshforge.store import History, list_files
+from meshforge.project import Project, list_renamed_files
+from meshforge.store import History
 from meshforge.symbolic import Label, SymbolicMesh
 
 
@@ -54,8 +54,8 @@ def rename_labels(project: Project, texts: Sequence[str]) -> None:
         old, sign, new = (part.strip() for part in text.partition("="))
         if not (sign and old and new):
             raise UsageError(f"--rename {text}: it needs a label and its new name", remedy="Write it so: part_a=leg.")
-        title, paths = f"{old} renamed {new}", [file.path(project.folder) for file in list_files() if file.words]
-        with History(project.folder).record(title, {"old": old, "new": new}, paths):
+        title, edit = f"{old} renamed {new}", {"kind": "rename-label", "old": old, "new": new}
+        with History(project.folder).record(title, edit, list_renamed_files(project)):
             project.rename_label(old, new)
         typer.echo(title)
 

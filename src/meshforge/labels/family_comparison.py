@@ -119,7 +119,7 @@ def compare_assets(
             command = label_command(store.folder, best, next(iter(hulls[best])), vocabulary)
             remedy = f"Label the hulls of one asset first, best {best}. In the studio, or: {command}"
             remedy += (
-                f"\n  Or show the steps, without names: meshforge demonstrate {quote_path(store.folder)} ASSET STEPS..."
+                f"\n  Or show the steps, without names: meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ..."
             )
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return compared

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 
 from meshforge.batch import ExecutionOptions
-from meshforge.common import ProjectError
+from meshforge.common import ProjectError, quote_path
 from meshforge.labels.merge import can_replace_less_certain
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import Label
@@ -78,6 +78,9 @@ class LabelFamily:
         """Return the vocabulary. Raises ProjectError where it is empty."""
         if not self.vocabulary:
             remedy = "Say first what hulls can be: --vocabulary a,b,c."
+            if classes := self.store.words:
+                command = f"meshforge label {quote_path(self.store.folder)} --rename {classes[0]}=NAME"
+                remedy += f" Or name the hulls that a step takes: {command}"
             raise ProjectError("the vocabulary is empty", where=str(self.store.folder), remedy=remedy)
         return self.vocabulary
 

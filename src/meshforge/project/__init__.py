@@ -17,6 +17,7 @@ __getattr__, __all__ = export_lazily(
         "prepare": "PreparationResult",
         "project": "Project",
         "rebuild": "MADE_ANEW",
+        "rename": "list_renamed_files",
         "replies": "has_agreed_labels",
         "review": "FamilyAssessment ProjectReview assess_family",
         "run": "make_manual_edit output_digest run_with_manual_edits",

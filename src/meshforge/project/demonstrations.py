@@ -7,7 +7,7 @@ from pathlib import Path
 
 from meshforge import batch, symbolic, synthesis
 from meshforge import store as files
-from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
+from meshforge.common import MeshForgeError, ProjectError, UsageError, quote_path, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.hull_mapping import confirm_replaced
 from meshforge.store import NO_ORIGIN, Origin, Store
@@ -204,7 +204,7 @@ def confirm(store: Store, right: synthesis.LabelFix, origin: Origin = NO_ORIGIN)
         if not problem and (label := mesh.hull_of(right.hull).label) not in (right.was, right.to):
             problem = f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
         if problem:
-            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
+            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {quote_path(store.folder)}")
         event = files.LabelFixEvent(asset=right.asset, hull=right.hull, was=right.was, to=right.to, accepted=True)
         known, current = store.feedback().fixes.get(event.id), mesh.hull_of(right.hull).annotation
         is_repeated = known and known.accepted and current == fixed
@@ -232,7 +232,7 @@ def take_back(store: Store, answer: str) -> str | None:
     with store.lock():
         kept = store.feedback().answers_and_fixes
         if answer not in kept:
-            listing = f"See what was said: meshforge review {store.folder} --list-answers"
+            listing = f"See what was said: meshforge review {quote_path(store.folder)} --list-answers"
             remedy = suggest_name(answer, kept, listing)
             raise ProjectError(f"there is no answer or repair {answer!r}", where=str(store.folder), remedy=remedy)
         event = kept[answer]

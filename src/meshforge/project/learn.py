@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
-from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
+from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, quote_path, write_atomically
 from meshforge.labels import classes
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, list_wrong, soften, sort_answers
@@ -296,7 +296,7 @@ def _read_demonstrations(
         raise ProjectError(
             "nothing is demonstrated yet",
             where=str(store.folder),
-            remedy=f"Show the steps on an asset or two: meshforge demonstrate {store.folder} ASSET STEPS...",
+            remedy=f"Show the steps on an asset or two: meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ...",
         )
     # one that cannot be read is missing among the meshes; reading it again says why
     return {

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from meshforge import batch, labels, language, symbolic
-from meshforge.common import MeshForgeError, format_share, relative_name
+from meshforge.common import MeshForgeError, format_share, quote_path, relative_name
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.family_step import choose_next_step
 from meshforge.project.hull_mapping import describe_replaced
@@ -189,7 +189,7 @@ def _find_flags(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
         yield error.message
     own = relative_name(store.layout.preparation(asset), store.folder)
     if any(name == own or name.startswith(f"{own}/") for name in History(store.folder).interrupted):
-        command = f"meshforge prepare {store.folder} {asset} --undo"
+        command = f"meshforge prepare {quote_path(store.folder)} {asset} --undo"
         yield f"its preparation was cut short, and selections may name hulls that are not there. Finish with: {command}"
 
 

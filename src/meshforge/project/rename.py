@@ -1,26 +1,32 @@
-"""Another name for a label, or a name for a class, in every file of a project."""
+"""Another name for a label, or a name for a class, in every file of a project; results and sign-offs go with it."""
 
-from collections.abc import Iterator
-from dataclasses import replace
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from meshforge import batch
 from meshforge import store as files
-from meshforge.batch import action_text
-from meshforge.common import ProgramError, ProjectError, suggest_name, write_all_atomically, write_atomically
+from meshforge.common import (
+    MeshForgeError,
+    ProgramError,
+    ProjectError,
+    file_digest,
+    quote_path,
+    suggest_name,
+    write_all_atomically,
+    write_atomically,
+)
+from meshforge.formats import labels_beside
 from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sources
 from meshforge.labels.like_reference import read_references
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
-from meshforge.store import Store
-from meshforge.symbolic import (
-    CERTAIN_SOURCES,
-    Label,
-    LabelFile,
-    format_labels,
-    is_class_name,
-    read_labels,
-    refuse_class_names,
-)
+from meshforge.project.run import output_digest
+from meshforge.project.sign_offs import find_bases, find_inputs, is_written
+from meshforge.store import AssetOutput, SignOff, Store, VerdictEvent, find_outputs
+from meshforge.symbolic import NO_PART, LabelFile, format_labels, is_class_name, read_labels, refuse_class_names
 
 
 def rename_label(store: Store, old: str, new: str) -> None:
@@ -35,8 +41,9 @@ def rename_label(store: Store, old: str, new: str) -> None:
     """
     with store.lock():
         settings = store.settings
-        named = dict(_name_class(store, old, new)) if is_class_name(old) else {}
-        _check_names(store, (*settings.vocabulary, *([old] if named else [])), old, new)
+        named = dict(_name_class(store, old, new)) if is_class_name(old) and old != NO_PART else {}
+        _check_names(store, old if named else None, old, new)
+        results = _Results.find(store, new)
         texts = dict(_rewrite_files(store, old, new)) | named
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
@@ -48,17 +55,27 @@ def rename_label(store: Store, old: str, new: str) -> None:
         if program:
             learn.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
         write_atomically(store.layout.settings, fresh)
+        results.rename(store, old, new)
 
 
-def _check_names(store: Store, vocabulary: tuple[str, ...], old: str, new: str) -> None:
-    where = str(store.folder)
-    if old not in vocabulary:
-        remedy = suggest_name(old, vocabulary, f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
+def list_renamed_files(store: Store) -> tuple[Path, ...]:
+    """Return the files and folders that `rename_label` may write."""
+    beside = store.layout.edited.rglob("*.labels.json")
+    return (*(file.path(store.folder) for file in files.list_files() if file.words), *beside)
+
+
+def _check_names(store: Store, named: str | None, old: str, new: str) -> None:
+    """Refuse names that make no sense. named: the class that hulls have."""
+    where, words = str(store.folder), dict.fromkeys([*store.words, *([named] if named else [])])
+    if old not in (*store.vocabulary, named):
+        remedy = suggest_name(old, words, f"Labels are: {', '.join(words)}." if words else "No hull has a label yet.")
         raise ProjectError(f"there is no label {old!r}", where=where, remedy=remedy)
     refuse_class_names([new])
-    if new in vocabulary:
-        remedy = "Choose another name, or give its hulls that label."
-        raise ProjectError(f"there is a label {new!r} already", where=where, remedy=remedy)
+    others = {word.casefold(): word for word in words if word != old or new == old}
+    if known := others.get(new.casefold()):
+        command = f"meshforge label {quote_path(store.folder)} ASSET 'HULLS={known}'"
+        remedy = f"Choose another name; or, if both are one part, label the hulls of {old} so: {command}"
+        raise ProjectError(f"there is a label {known!r} already", where=where, remedy=remedy)
     if not _is_writable(new):
         remedy = "A label is text of at least one character, without line breaks and control characters."
         raise ProjectError(f"no program could write the label {new!r}", where=where, remedy=remedy)
@@ -80,10 +97,7 @@ def _name_class(store: Store, old: str, new: str) -> Iterator[tuple[Path, str | 
         if not own:
             continue
         file = store.labels(asset)
-        given = {
-            hull: Label(new) if label.source in CERTAIN_SOURCES else Label(new, label.confidence, "propagated")
-            for hull, label in own.items()
-        }
+        given = {hull: label.rename(old, new) for hull, label in own.items()}
         labels = {hull: label.rename(old, new) for hull, label in file.labels.items()}
         words = tuple(dict.fromkeys([*file.vocabulary, new]))
         yield (
@@ -131,7 +145,7 @@ def _rename_in_steps(
 
 def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
     action, label = files.parse_action_text(text, where)
-    return action_text(action, new) if label == old else text
+    return batch.action_text(action, new) if label == old else text
 
 
 def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> files.Event:
@@ -140,7 +154,7 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
             return event.rename(old, new)
         case files.AnswerEvent() if event.action:
             return event.model_copy(update={"action": _rename_in_action(event.action, where, old, new)})
-        case files.VerdictEvent():
+        case VerdictEvent():
             pairs = (
                 tuple(replace(one, action=_rename_in_action(one.action, where, old, new)) for one in some)
                 for some in (event.seen, event.meant)
@@ -172,3 +186,67 @@ def _rename_in_settings(store: Store, settings: files.Settings, old: str, new: s
     after = rename_in_orient(before, old, new) if before else None
     text = settings.orient if after == before else files.orientation_text(after)
     return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})
+
+
+@dataclass(frozen=True)
+class _Results:
+    """What is up to date before a label is renamed. made: outputs, by asset; signed: assets that are signed off."""
+
+    made: Mapping[str, AssetOutput]
+    signed: frozenset[str]
+
+    @staticmethod
+    def find(store: Store, new: str) -> _Results:
+        """Return them; none where the new name is in use already, so that rules may select otherwise from now on."""
+        program, files_of_labels = store.program(), map(store.labels_and_classes, store.assets())
+        words = {name for file in files_of_labels for label in file.labels.values() for name in label.names}
+        try:
+            edits = {} if new in {*words, *(program.labels_in_use if program else ())} else find_inputs(store)
+        except MeshForgeError:  # nothing can be applied, which a status says
+            edits = {}
+        outputs, signed = find_outputs(store.layout, edits), store.sign_offs()
+        bases = find_bases(store, edits, outputs)
+        made = {name: one for name, one in outputs.items() if one.is_whole and is_written(one.stamp, edits[name])}
+        return _Results(
+            made,
+            frozenset(name for name, now in bases.items() if name in signed and not now.changes(signed[name].rests_on)),
+        )
+
+    def rename(self, store: Store, old: str, new: str) -> None:
+        """Let labels beside outputs, verdicts on them and sign-offs follow the other name, which all else has by now."""
+        edits, digests = find_inputs(store) if self.made or self.signed else {}, dict[str | None, str | None]()
+        for asset, output in self.made.items():
+            assert output.stamp
+            stamp = _rename_in_output(store.layout.edited, output.stamp, edits[asset], old, new)
+            digests[output_digest(output.stamp)] = output_digest(stamp)
+
+        def follow(event: files.Event) -> files.Event:
+            is_on_output = isinstance(event, VerdictEvent) and event.output in digests
+            return event.model_copy(update={"output": digests[event.output]}) if is_on_output else event
+
+        store.change_events(lambda events: map(follow, events))
+        bases = find_bases(store, edits, find_outputs(store.layout, edits))
+        signed = store.sign_offs()
+        now = {name: signed[name].model_copy(update={"rests_on": bases[name]}) for name in self.signed}
+        store.write_sign_offs({**signed, **now})
+
+
+def _rename_in_output(
+    folder: Path, stamp: batch.Stamp, edit: batch.OutputInputs, old: str, new: str
+) -> batch.Stamp:
+    """The stamp of an output in which a label has another name, in the file beside it too. edit: what decides it now."""
+    path = labels_beside(folder / stamp.out)
+    outputs = dict(stamp.outputs)
+    if (name := path.relative_to(folder).as_posix()) in outputs:
+        file = read_labels(path)
+        labels = {hull: label.rename(old, new) for hull, label in file.labels.items()}
+        words = tuple(new if word == old else word for word in file.vocabulary)
+        write_atomically(path, format_labels(LabelFile(words, labels, file.digests)))
+        outputs[name] = file_digest(path)
+    kept = {"settings": stamp.inputs.settings, "software": stamp.inputs.software} if stamp.inputs else {}
+    now, before = tuple(new if word == old else word for word in stamp.labels), stamp.labels_before
+    update = {"inputs": edit.model_copy(update=kept), "outputs": outputs, "labels": now}
+    update |= {"labels_before": tuple(new if word == old else word for word in before) if before else before}
+    made = stamp.model_copy(update=update)
+    made.write(batch.stamp_path(folder, stamp.asset))
+    return made

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from meshforge import batch, language, signoff, symbolic, synthesis
 from meshforge import labels as labelling
-from meshforge.common import MeshForgeError, ProjectError, suggest_name
+from meshforge.common import MeshForgeError, ProjectError, quote_path, suggest_name
 from meshforge.geometry import digest
 from meshforge.labels.merge import set_labels_of
 from meshforge.signoff.question import WRONG
@@ -61,7 +61,9 @@ def build_work(
         store.path(asset)
     program = store.program() or make_empty_program(store)
     if program is None:
-        remedy = f"Learn it: meshforge synthesize {store.folder}"
+        word, learn = quote_path(store.folder), bool(store.demonstration_ids())
+        show_it = f"Show the steps on an asset or two: meshforge demonstrate {word} ASSET 'HULLS => ACTION' ..."
+        remedy = f"Learn it: meshforge synthesize {word}" if learn else show_it
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
     if any(map(symbolic.is_class_name, program.labels_asked)):
         labelling.complete_classes(store)
@@ -209,7 +211,7 @@ def _judge(
     stamp = batch.read_stamp(store.layout.edited, asset)
     output = output_digest(stamp) if verdict else None
     if verdict == "accepted" and not output:
-        remedy = f"Make it: meshforge apply {store.folder}"
+        remedy = f"Make it: meshforge apply {quote_path(store.folder)}"
         raise ProjectError(f"{asset} has no output to be accepted", where=str(store.folder), remedy=remedy)
     program, seen = store.program(), _read_selections(store, stamp) if verdict and alone else ()
     if verdict == "wrong" and alone and program and not seen:  # what it selects is not written as it is

@@ -26,7 +26,7 @@ from meshforge.store.history_entries import (
     count_group,
     diff_states,
 )
-from meshforge.store.layout import Layout
+from meshforge.store.layout import Layout, identify_file
 
 _RECORDED: ContextVar[frozenset[Path]] = ContextVar("recorded", default=frozenset())
 """The folders of projects of which a change is being recorded here: what is changed meanwhile is part of it."""
@@ -65,8 +65,8 @@ class Recovery(NamedTuple):
 
 
 class History:
-    """The history of a project, in its folder. derived: gives the names of files that learning writes, too: undo and
-    redo overwrite them even if they have changed since."""
+    """The history of a project, in its folder. derived: gives the names of files, as in `Layout`, that follow from
+    others: undo and redo overwrite them even if they have changed since."""
 
     def __init__(self, folder: Path, derived: Callable[[], frozenset[str]] = frozenset) -> None:
         layout = Layout(folder)
@@ -234,7 +234,8 @@ class History:
         now = self._snapshots.read_state(wanted)
         derived = self._derived()
         for name, digest in now.items():
-            if digest not in (wanted[name], other[name]) and name not in derived:
+            known = identify_file(name)
+            if digest not in (wanted[name], other[name]) and not (known and known[0].name in derived):
                 raise ConflictError(
                     str(FileConflict(name, None)),
                     where=str(self._folder / name),

@@ -29,8 +29,8 @@ class ProjectFile:
     `{asset}` stands for an id, `{name}` for a name without slash and dot.
 
     effects: what a studio refreshes when it changes; without any it is not watched. hulls: it is made of hulls of an
-    asset or names them, so preparing the asset changes it. words: it contains labels. learned: learning writes it, so
-    undo overwrites it whatever is in it.
+    asset or names them, so preparing the asset changes it. words: it contains labels, or digests of them. learned: it
+    follows from other files, so undo overwrites it whatever is in it.
     """
 
     name: str
@@ -134,12 +134,12 @@ class Layout:
     previous_program = OneFile("program.previous.mf", words=True, learned=True)
     learned = OneFile("learned.json", _effects("program"), words=True, learned=True)
     events = OneFile("events.jsonl", _effects("feedback"), hulls=True, words=True)
-    sign_offs = OneFile("signoffs.jsonl")
-    edited = OneFile("edited/")
+    sign_offs = OneFile("signoffs.jsonl", words=True, learned=True)
+    edited = OneFile("edited/", learned=True)
 
     # What can be made again
 
-    stamps = AssetFile(f"edited/{STATE}/stamps/{{asset}}.json", _effects("card"))
+    stamps = AssetFile(f"edited/{STATE}/stamps/{{asset}}.json", _effects("card"), words=True, learned=True)
     assessment = OneFile(f"{STATE}/assessment.json")
     review_pictures = OneFile(f"{STATE}/review/")
     asset_index = OneFile(f"{STATE}/survey.json")

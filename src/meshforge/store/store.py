@@ -25,7 +25,7 @@ from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEv
 from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
-from meshforge.store.meshes import AssetFiles, format_labels_file, read_labels_file
+from meshforge.store.meshes import AssetFiles, format_labels_file, read_classes_file, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
@@ -118,8 +118,7 @@ class Store:
 
     def exclusions(self) -> Mapping[str, ExclusionReason]:
         """Return why assets are excluded, by id: from the family, or as not solved."""
-        layout = self.layout
-        return _read_exclusions(self.folder, file_state(layout.settings), file_state(layout.events))
+        return _read_exclusions(self.layout, file_state(self.layout.events))
 
     def exclude(self, assets: Collection[str], reason: ExclusionReason | None) -> None:
         """Exclude assets, or include them again by None; their files stay, and what is kept for them. Raises
@@ -128,17 +127,7 @@ class Store:
             self.path(asset)
         if reason == NOT_OF_FAMILY:
             self._check_rest(assets)
-        with self.lock():
-            self._note_exclusions()
-            self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
-
-    def _note_exclusions(self) -> None:
-        """Note as events, under the lock that the caller holds, what earlier versions noted in the settings."""
-        settings = self.settings
-        if before := dict.fromkeys((*settings.left_out, *settings.removed), NOT_OF_FAMILY):
-            self.add_events(*(ExclusionEvent(asset=asset, reason=why) for asset, why in before.items()))
-            after = settings_file.edit_settings(self.folder, {"left_out": None, "removed": None})
-            write_atomically(self.layout.settings, after)
+        self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
 
     def _check_rest(self, away: Collection[str]) -> None:
         if self.found.ids.keys() <= set(away):
@@ -192,7 +181,6 @@ class Store:
             self.path(asset)
         self._check_rest(assets)
         with self.lock():
-            self._note_exclusions()
             feedback, meant = self.feedback(), settings_file.drop_assets(self.folder, self.every, assets)
             for asset in assets:
                 batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
@@ -219,7 +207,7 @@ class Store:
 
     def classes(self, asset: str) -> symbolic.LabelFile:
         """Return the classes of the hulls of an asset; an empty file where there are none."""
-        return read_labels_file(self.layout.classes(asset))
+        return read_classes_file(self.layout.classes(asset))
 
     def write_classes(self, texts: Mapping[str, str | None]) -> None:
         """Write files of classes, by asset, under the lock that the caller holds; None removes one."""
@@ -390,11 +378,6 @@ class Store:
 
 
 @lru_cache(maxsize=4)
-def _read_exclusions(
-    folder: Path, settings: FileState | None, events: FileState | None
-) -> Mapping[str, ExclusionReason]:
-    """Read them from files in these states; they are asked for several times for every asset."""
-    kept = settings_file.read_settings(folder)
-    feedback = load_feedback(Layout(folder)).exclusions.items()
-    before = dict.fromkeys((*kept.left_out, *kept.removed), NOT_OF_FAMILY)
-    return MappingProxyType(before | {asset: one.reason for asset, one in feedback if one.reason})
+def _read_exclusions(layout: Layout, state: FileState | None) -> Mapping[str, ExclusionReason]:
+    """Read them from events in this state; they are asked for several times for every asset."""
+    return MappingProxyType({a: one.reason for a, one in load_feedback(layout).exclusions.items() if one.reason})

@@ -77,7 +77,9 @@ class Label:
         return (self.name, *(self.given.names if self.given else ()))
 
     def rename(self, old: str, new: str) -> Label:
-        """Return the same where a label has another name."""
+        """Return the same where a label has another name; a class that gets one is a label of a person, or inferred."""
+        if self.name == old and self.source in CLASS_SOURCES:
+            return Label(new) if self.source == "step" else Label(new, self.confidence, "propagated")
         given = self.given.rename(old, new) if self.given else None
         return replace(self, name=new if self.name == old else self.name, given=given)
 

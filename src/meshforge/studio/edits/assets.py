@@ -7,7 +7,7 @@ from pydantic import Field
 
 from meshforge.batch import action_text
 from meshforge.common import join_names, pluralize
-from meshforge.project import Project
+from meshforge.project import Project, list_renamed_files
 from meshforge.signoff import ExclusionReason
 from meshforge.store import Layout, list_files
 from meshforge.studio.actions import read_action
@@ -77,13 +77,15 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = tuple(file for file in list_files() if file.words)
     title = "{old} renamed {new}"
     old: str
     new: str
 
     def apply(self, project: Project) -> None:
         project.rename_label(self.old, self.new)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return list_renamed_files(project)
 
 
 Vector = tuple[float, float, float]

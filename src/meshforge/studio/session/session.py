@@ -230,7 +230,6 @@ class Session:
 
 
 def _list_learned_files(project: Project) -> frozenset[str]:
-    """The files that learning writes: undo puts them back whatever they hold by then, but for a program by hand."""
-    names = {file.name for file in list_files() if file.learned}
-    names.update(Layout.classes.name.format(asset=asset) for asset in project.layout.classes.ids)
-    return frozenset(names - {Layout.program.name} if project.program_state().by_hand else names)
+    """The files that follow from others: undo puts them back whatever they hold by then, but for a program by hand."""
+    by_hand = {Layout.program.name} if project.program_state().by_hand else set[str]()
+    return frozenset(file.name for file in list_files() if file.learned) - by_hand
