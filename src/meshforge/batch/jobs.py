@@ -22,7 +22,7 @@ from meshforge.batch.provenance import (
 )
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import Plugin, ProgramError, UsageError, pluralize
-from meshforge.symbolic import LabelFile, read_labels
+from meshforge.symbolic import LabelFile, read_classes, read_labels
 
 if TYPE_CHECKING:
     from meshforge.batch.preparation.decompose import Concave
@@ -51,8 +51,7 @@ class AssetJob:
     def read_labels(self) -> LabelFile:
         """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
         read."""
-        files = (read_labels(path) if path else LabelFile() for path in (self.labels, self.classes))
-        return next(files).fill(next(files))
+        return (read_labels(self.labels) if self.labels else LabelFile()).fill(read_classes(self.classes))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +115,7 @@ def _digest_labels(job: AssetJob) -> str | None:
     labels = content_digest(job.labels) if job.labels else None
     if job.classes is None:
         return labels
-    return value_digest([labels, {name: label.name for name, label in read_labels(job.classes).labels.items()}])
+    return value_digest([labels, {name: label.name for name, label in read_classes(job.classes).labels.items()}])
 
 
 def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:

@@ -11,6 +11,7 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
 from meshforge.project import AssetStatus, Status, compute_status, format_status, format_step
 from meshforge.store import Store
+from meshforge.symbolic import NO_PART, is_class_name
 
 
 def status(
@@ -42,16 +43,19 @@ def status(
 
 
 def _print_status(found: Status, folder: Path) -> None:
+    every = {label.name for asset in found.assets for label in asset.labels if label} - {NO_PART}
+    classes = ", ".join(sorted(filter(is_class_name, every)))
     rules = "no program yet" if found.rules is None else f"a program of {pluralize(found.rules, 'rule')}"
     typer.echo(f"{found.name}: {pluralize(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")
-    typer.echo(f"vocabulary: {', '.join(found.vocabulary) or 'none'}\n")
+    typer.echo(f"vocabulary: {', '.join(found.vocabulary) or 'none'}{'; of steps: ' * bool(classes)}{classes}\n")
     print_table(
         ("asset", "hulls", "labelled", "demonstrated", "output", "remarks"),
         map(_to_row, found.assets),
         right=("hulls",),
     )
     for asset in found.lost:
-        typer.echo(f"kept for an asset that is not there: {escape_name(asset)}")
+        again = "if its file has another name now, give it this one again"
+        typer.echo(f"kept for an asset that is not there: {escape_name(asset)} ({again})")
     if found.rules is not None:
         typer.echo(f"\n{format_status(found)}")
     typer.echo(f"\n{format_step(found.next)}")

@@ -2,6 +2,7 @@
 the same class. A class is a label with a made name (`part_a`: the hulls of step 1), kept beside the labels."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from meshforge import language, symbolic, synthesis
 from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions
@@ -48,9 +49,11 @@ def infer_classes(
         for hull in mesh.hulls
     ]
     found = model_family(list(bare.values())).infer(annotations)
+    classes = {label.name for one in observed.values() for label in one.values()} - {NO_PART}
+    by_name = _find_classes_of_names(bare, _collect_rules(bare, demos, answers, templates), classes)
     classed = dict[str, SymbolicMesh]()
     for place, (asset, mesh) in enumerate(bare.items()):
-        labels = _choose_labels(mesh, observed.get(asset, {}), found.labels(place, "class"))
+        labels = _choose_labels(mesh, observed.get(asset, {}), found.labels(place, "class"), by_name)
         same = labels == _classes_of(meshes[asset])
         classed[asset] = meshes[asset] if same else mesh.with_labels(labels)
     return classed
@@ -98,8 +101,9 @@ def complete_classes(store: Store, execution: ExecutionOptions = EXECUTION_DEFAU
     """Write the classes of assets that have none and no labels, by those that steps gave: of new assets, and of those
     at which learning does not look in a very large family."""
     layout = store.layout
-    bare = {one for one in store.assets() if not (layout.labels(one).exists() or layout.classes(one).exists())}
-    shown = {one for one in layout.classes.ids if one in store.found.ids}
+    kept = {one for one in layout.classes.ids if one in store.found.ids}
+    shown = {one for one in kept if store.classes(one).labels}
+    bare = {one for one in store.assets() if not layout.labels(one).exists()} - shown | (kept - shown)
     steps = {
         one: {n: label for n, label in store.labels_and_classes(one).labels.items() if evidence_of(label)}
         for one in shown
@@ -193,13 +197,26 @@ def _invert(selections: Mapping[int, frozenset[str]]) -> dict[str, Rules]:
     return {name: Rules(rule for rule, some in selections.items() if name in some) for name in names}
 
 
+def _find_classes_of_names(
+    meshes: Mapping[str, SymbolicMesh], known: Mapping[str, Mapping[str, Rules]], classes: Collection[str]
+) -> dict[str, str]:
+    """The class, among some, of each part with a name all of whose hulls the same steps take."""
+    taken = dict[str, set[str]]()
+    for asset, own in known.items():
+        for hull, rules in own.items():
+            if label := evidence_of(meshes[asset].hull_of(hull).annotation):
+                taken.setdefault(label.name, set()).add(name_class(rules))
+    return {name: one for name, some in taken.items() for one in some if len(some) == 1 and one in classes}
+
+
 def _choose_labels(
-    mesh: SymbolicMesh, observed: Mapping[str, Label], inferred: Sequence[Label | None]
+    mesh: SymbolicMesh, observed: Mapping[str, Label], inferred: Sequence[Label | None], by_name: Mapping[str, str]
 ) -> dict[str, Label]:
-    """The classes of the hulls without a label: what was shown, else the likeliest where that is a class."""
-    rows = zip(mesh.hulls, inferred, strict=True)
-    guesses = {hull.name: one for hull, one in rows if not hull.annotation and one and is_class_name(one.name)}
-    return {**guesses, **observed}
+    """The classes of the hulls without a label: what was shown, else the likeliest class, or that of the likeliest part
+    with a name, so that naming one hull takes no other one from its step."""
+    rows = ((hull, one) for hull, one in zip(mesh.hulls, inferred, strict=True) if one and not hull.annotation)
+    guesses = {hull.name: replace(one, name=by_name.get(one.name, one.name)) for hull, one in rows}
+    return {**{name: one for name, one in guesses.items() if is_class_name(one.name)}, **observed}
 
 
 def _classes_of(mesh: SymbolicMesh) -> dict[str, Label]:

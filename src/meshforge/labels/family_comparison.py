@@ -117,10 +117,9 @@ def compare_assets(
         best, remedy = compared.next, "Decompose the assets first." if any(current) else _describe_lost(lost)
         if best:
             command = label_command(store.folder, best, next(iter(hulls[best])), vocabulary)
+            show_it = f"meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ..."
             remedy = f"Label the hulls of one asset first, best {best}. In the studio, or: {command}"
-            remedy += (
-                f"\n  Or show the steps, without names: meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ..."
-            )
+            remedy += f"\n  Or show the steps, without names: {show_it}"
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return compared
 

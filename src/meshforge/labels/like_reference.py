@@ -177,7 +177,7 @@ def _map_words(name: str, labels: Sequence[str], vocabulary: Sequence[str], give
     taken |= given
     if not any(taken.values()):
         remedy = f"Say which is which: --map {labels[0]}=LABEL. The vocabulary is: {', '.join(vocabulary)}."
-        raise UsageError(f"no label of {name} means one of the vocabulary: {common.join_names(labels)}", remedy=remedy)
+        raise UsageError(f"no label of {name} ({common.join_names(labels)}) means one of the vocabulary", remedy=remedy)
     return taken
 
 

@@ -17,7 +17,7 @@ from meshforge.language.print import CommentLines, Comments, Rule, show, show_ru
 from meshforge.language.replay import Memo, Replay, RuleTrace, make_anew
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.language.words import check_declared, check_label, check_threshold, show_label
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import SymbolicMesh, is_class_name
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
@@ -155,6 +155,8 @@ class Program:
         """Raise ProgramError where it asks for labels and no hull has one."""
         if self.labels_asked and mesh.hulls and not any(hull.annotation for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
+            if all(map(is_class_name, self.labels_asked)):
+                remedy = "Learning gives them to the assets of a project, by its demonstrations: meshforge synthesize"
             raise ProgramError("no labels, though the program asks for some", remedy=remedy)
 
     def __str__(self) -> str:

@@ -23,6 +23,7 @@ from meshforge.project.preparation_plan import read_preparation_plan as read_pre
 from meshforge.project.prepare import PreparationResult as PreparationResult
 from meshforge.project.project import Project as Project
 from meshforge.project.rebuild import MADE_ANEW as MADE_ANEW
+from meshforge.project.rename import list_renamed_files as list_renamed_files
 from meshforge.project.replies import has_agreed_labels as has_agreed_labels
 from meshforge.project.review import FamilyAssessment as FamilyAssessment
 from meshforge.project.review import ProjectReview as ProjectReview

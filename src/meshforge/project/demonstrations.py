@@ -204,7 +204,9 @@ def confirm(store: Store, right: synthesis.LabelFix, origin: Origin = NO_ORIGIN)
         if not problem and (label := mesh.hull_of(right.hull).label) not in (right.was, right.to):
             problem = f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
         if problem:
-            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {quote_path(store.folder)}")
+            raise ProjectError(
+                problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {quote_path(store.folder)}"
+            )
         event = files.LabelFixEvent(asset=right.asset, hull=right.hull, was=right.was, to=right.to, accepted=True)
         known, current = store.feedback().fixes.get(event.id), mesh.hull_of(right.hull).annotation
         is_repeated = known and known.accepted and current == fixed

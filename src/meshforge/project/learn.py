@@ -293,11 +293,9 @@ def _read_demonstrations(
 ) -> dict[str, synthesis.Demonstration]:
     ids = store.demonstration_ids()
     if not ids:
-        raise ProjectError(
-            "nothing is demonstrated yet",
-            where=str(store.folder),
-            remedy=f"Show the steps on an asset or two: meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ...",
-        )
+        command = f"meshforge demonstrate {quote_path(store.folder)} ASSET 'HULLS => ACTION' ..."
+        remedy = f"Show the steps on an asset or two: {command}"
+        raise ProjectError("nothing is demonstrated yet", where=str(store.folder), remedy=remedy)
     # one that cannot be read is missing among the meshes; reading it again says why
     return {
         asset: synthesis.Demonstration(meshes.get(asset) or store.mesh(asset), store.steps(asset), asset)

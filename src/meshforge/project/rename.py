@@ -25,7 +25,7 @@ from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
 from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import find_bases, find_inputs, is_written
-from meshforge.store import AssetOutput, SignOff, Store, VerdictEvent, find_outputs
+from meshforge.store import AssetOutput, Store, VerdictEvent, find_outputs
 from meshforge.symbolic import NO_PART, LabelFile, format_labels, is_class_name, read_labels, refuse_class_names
 
 
@@ -43,13 +43,12 @@ def rename_label(store: Store, old: str, new: str) -> None:
         settings = store.settings
         named = dict(_name_class(store, old, new)) if is_class_name(old) and old != NO_PART else {}
         _check_names(store, old if named else None, old, new)
-        results = _Results.find(store, new)
         texts = dict(_rewrite_files(store, old, new)) | named
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
         fresh = files.edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
-        inputs = learn.digest_learning_inputs(store)
+        inputs, results = learn.digest_learning_inputs(store), _Results.find(store, new)
         for path, text in texts.items():
             write_all_atomically({path: text})
         if program:
@@ -92,7 +91,7 @@ def _name_class(store: Store, old: str, new: str) -> Iterator[tuple[Path, str | 
     """The files of labels in which the hulls of a class have a label, and those of classes without it."""
     layout = store.layout
     for asset in layout.classes.ids:
-        classes = read_labels(layout.classes(asset))
+        classes = store.classes(asset)
         own = {hull: label for hull, label in classes.labels.items() if label.name == old}
         if not own:
             continue
@@ -213,7 +212,7 @@ class _Results:
         )
 
     def rename(self, store: Store, old: str, new: str) -> None:
-        """Let labels beside outputs, verdicts on them and sign-offs follow the other name, which all else has by now."""
+        """Let labels beside outputs, verdicts on them and sign-offs follow the name, which all else has by now."""
         edits, digests = find_inputs(store) if self.made or self.signed else {}, dict[str | None, str | None]()
         for asset, output in self.made.items():
             assert output.stamp
@@ -231,10 +230,8 @@ class _Results:
         store.write_sign_offs({**signed, **now})
 
 
-def _rename_in_output(
-    folder: Path, stamp: batch.Stamp, edit: batch.OutputInputs, old: str, new: str
-) -> batch.Stamp:
-    """The stamp of an output in which a label has another name, in the file beside it too. edit: what decides it now."""
+def _rename_in_output(folder: Path, stamp: batch.Stamp, edit: batch.OutputInputs, old: str, new: str) -> batch.Stamp:
+    """The stamp of an output in which a label has another name, beside it too. edit: what decides it now."""
     path = labels_beside(folder / stamp.out)
     outputs = dict(stamp.outputs)
     if (name := path.relative_to(folder).as_posix()) in outputs:

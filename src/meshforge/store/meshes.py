@@ -16,7 +16,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge import batch, formats, geometry, symbolic
-from meshforge.common import AssetError, FileState, describe_error, file_digest, file_state, relative_name, write_atomically
+from meshforge.common import FileState, describe_error, file_digest, file_state, relative_name, write_atomically
 from meshforge.store.layout import Layout
 
 _OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a kill does not lose more
@@ -234,21 +234,12 @@ class AssetFiles:
     def read_labels(self) -> symbolic.LabelFile:
         """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
         read."""
-        return read_labels_file(self.labels).fill(read_classes_file(self.classes))
+        return read_labels_file(self.labels).fill(symbolic.read_classes(self.classes))
 
 
 def read_labels_file(path: Path) -> symbolic.LabelFile:
     """Return the labels of an asset as they are kept; empty where there are none."""
     return symbolic.read_labels(path) if path.exists() else symbolic.LabelFile()
-
-
-def read_classes_file(path: Path) -> symbolic.LabelFile:
-    """Return the classes of an asset as they are kept; empty where there are none."""
-    try:
-        return read_labels_file(path)
-    except AssetError as error:
-        remedy = "Remove the file: meshforge synthesize makes it again."
-        raise AssetError(error.problem, where=error.where, remedy=remedy) from error
 
 
 def format_labels_file(

@@ -25,7 +25,7 @@ from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEv
 from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
-from meshforge.store.meshes import AssetFiles, format_labels_file, read_classes_file, read_labels_file
+from meshforge.store.meshes import AssetFiles, format_labels_file, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
@@ -206,8 +206,8 @@ class Store:
         return self.labels(asset).fill(self.classes(asset))
 
     def classes(self, asset: str) -> symbolic.LabelFile:
-        """Return the classes of the hulls of an asset; an empty file where there are none."""
-        return read_classes_file(self.layout.classes(asset))
+        """Return the classes of the hulls of an asset; an empty file where there are none that can be read."""
+        return symbolic.read_classes(self.layout.classes(asset))
 
     def write_classes(self, texts: Mapping[str, str | None]) -> None:
         """Write files of classes, by asset, under the lock that the caller holds; None removes one."""

@@ -41,6 +41,7 @@ from meshforge.symbolic.label_file import LabelTransfer as LabelTransfer
 from meshforge.symbolic.label_file import format_labels as format_labels
 from meshforge.symbolic.label_file import match_labels as match_labels
 from meshforge.symbolic.label_file import parse_labels_text as parse_labels_text
+from meshforge.symbolic.label_file import read_classes as read_classes
 from meshforge.symbolic.label_file import read_labels as read_labels
 from meshforge.symbolic.label_file import transfer_labels as transfer_labels
 from meshforge.symbolic.label_file import write_labels as write_labels

@@ -83,6 +83,14 @@ def read_labels(path: Path) -> LabelFile:
     return _parse(content, path)
 
 
+def read_classes(path: Path | None) -> LabelFile:
+    """Return the classes in a file; none where it is not there, or damaged: learning makes them again."""
+    try:
+        return read_labels(path) if path and path.exists() else LabelFile()
+    except AssetError:
+        return LabelFile()
+
+
 def parse_labels_text(text: str | None) -> LabelFile:
     """Return the labels in the text of a labels file, none for None. Raises AssetError as `read_labels` does."""
     return _parse(text.encode(), Path("labels")) if text else LabelFile()

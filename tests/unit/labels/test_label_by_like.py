@@ -162,7 +162,7 @@ def test_words_that_neither_has_are_named(tmp_path: Path, other: Project) -> Non
     with pytest.raises(UsageError, match=r"'post' is not in the vocabulary\n  Did you mean 'posts'"):
         project.label(LikeLabeler(other.folder, {"leg": "post"}))
     project.set_vocabulary(("wing", "fuselage"))
-    with pytest.raises(UsageError, match=r"no label of p means one of the vocabulary: top, leg, misc\n  .*--map top=L"):
+    with pytest.raises(UsageError, match=r"no label of p \(top, leg, misc\) means one of the .*\n  .*--map top=L"):
         project.label(LikeLabeler(other.folder))
 
 

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import IN_PROCESS, ApplyOptions
+from meshforge.batch.outcome import Skipped
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project, demonstrations
@@ -57,6 +59,24 @@ def test_a_learned_program_stands_as_it_stood(tmp_path: Path) -> None:
     by_hand = saying(tmp_path / "b")
     by_hand.rename_label("leg", "foot")
     assert by_hand.program_state().by_hand
+
+
+def test_results_follow_as_a_new_run_would_make_them_unless_hulls_have_the_name_already(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_vocabulary(["top", "leg", "misc", "rail"])
+    project.set_labels(SECOND, {"left_low": "rail"})
+    project.set_vocabulary(["top", "leg", "misc"])
+    list(project.apply(execution=IN_PROCESS))
+    project.rename_label("leg", "foot")
+    made = tree(project.layout.edited)
+    assert {type(one) for one in project.apply(execution=IN_PROCESS)} == {Skipped}
+    list(project.apply(options=ApplyOptions(resume=False), execution=IN_PROCESS))
+    outputs = {name for name in made if not name.startswith(".")}
+    assert len(outputs) == 6 and {name: tree(project.layout.edited)[name] for name in outputs} == {
+        name: made[name] for name in outputs
+    }
+    project.rename_label("foot", "rail")
+    assert Skipped not in {type(one) for one in project.apply(execution=IN_PROCESS)}
 
 
 def test_what_an_inferred_label_replaced_is_renamed_too(tmp_path: Path) -> None:

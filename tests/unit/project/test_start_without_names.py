@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS
-from meshforge.batch.outcome import Edited
+from meshforge.batch.outcome import Edited, Skipped
 from meshforge.common import ProjectError, UsageError
 from meshforge.language import Delete, Each, Merge
-from meshforge.project import Project
+from meshforge.project import Project, list_renamed_files
 from meshforge.store import History, Layout, list_files
 from meshforge.symbolic import NO_PART, is_class_name, name_class
 from meshforge.synthesis import Answer, Step
@@ -54,10 +54,9 @@ def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(tmp_
 
 def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
     project = shown(tmp_path)
-    files = [file.path(project.folder) for file in list_files() if file.words]
     learned_files = frozenset({Layout.program.name, Layout.previous_program.name, Layout.learned.name})
     history = History(project.folder, lambda: learned_files)
-    with history.record("named", {}, files):
+    with history.record("named", {}, list_renamed_files(project)):
         project.rename_label("part_b", "leg")
     assert "Is(leg)    => Each(Merge)" in str(project.program()) and project.vocabulary == ("leg",)
     sources = {asset: {one.source for one in project.labels(asset).labels.values()} for asset in (FIRST, SECOND)}
@@ -69,13 +68,34 @@ def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
     assert "Is(part_b)" in str(project.synthesize().program)
 
 
+def test_a_name_for_a_class_keeps_results_and_sign_offs_and_so_does_taking_it_back(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    list(project.apply(execution=IN_PROCESS))
+    project.set_verdict(THIRD, "accepted")
+    project.review(0.5, execution=IN_PROCESS)
+    assert project.status(workers=0).is_signed_off
+    history = History(project.folder, lambda: frozenset(file.name for file in list_files() if file.learned))
+    with history.record("named", {}, list_renamed_files(project)):
+        project.rename_label("part_b", "leg")
+    beside = (project.layout.edited / SECOND).with_suffix(".labels.json")
+    for has_name in (True, False):
+        assert project.status(workers=0).is_signed_off and ('"leg"' in beside.read_text()) is has_name
+        assert {type(one) for one in project.apply(execution=IN_PROCESS)} == {Skipped}
+        project.review(0.5, execution=IN_PROCESS)
+        assert project.status(workers=0).is_signed_off and project.feedback().verdicts.keys() == {THIRD}
+        history.undo()
+
+
 def test_two_parts_do_not_get_one_name_and_no_label_a_made_one(tmp_path: Path) -> None:
     project = shown(tmp_path)
     project.rename_label("part_b", "leg")
-    with pytest.raises(ProjectError, match="there is a label 'leg' already"):
-        project.rename_label("part_a", "leg")
-    with pytest.raises(ProjectError, match="there is no label 'part_c'"):
+    for name in ("leg", "Leg"):
+        with pytest.raises(ProjectError, match=r"there is a label 'leg' already\n.*ASSET 'HULLS=leg'"):
+            project.rename_label("part_a", name)
+    with pytest.raises(ProjectError, match=r"there is no label 'part_c'\n  Did you mean 'part_a'"):
         project.rename_label("part_c", "foot")
+    with pytest.raises(ProjectError, match="there is no label 'no part'"):
+        project.rename_label(NO_PART, "rest")
     with pytest.raises(UsageError, match="'part_c' is a name that MeshForge gives"):
         project.rename_label("leg", "part_c")
     with pytest.raises(UsageError, match="'part_a' is a name that MeshForge gives"):

@@ -105,6 +105,10 @@ def change_label(project: Project) -> None:
     project.set_labels(THIRD, {"left_low": "misc"})
 
 
+def rename_label(project: Project) -> None:
+    project.rename_label("leg", "foot")
+
+
 def lay_out_anew(path: Path) -> None:
     """Write a JSON file in another order of its keys, with other white space and line ends, behind a BOM."""
     turned = json.loads(path.read_text(), object_pairs_hook=lambda pairs: dict(reversed(pairs)))
@@ -219,6 +223,7 @@ def touch_all(project: Project) -> None:
         (change_asset, {THIRD: ("asset",)}),
         (change_referenced_mesh, {ACCEPTED: ("asset",)}),
         (change_label, {THIRD: ("labels",)}),
+        (rename_label, NONE),
         (lay_all_out_anew, NONE),
         (change_preparation, {THIRD: ("preparation", "labels")}),
         (change_program, dict.fromkeys(FAMILY, ("program",))),
