@@ -269,11 +269,7 @@ def _remove_empty_folders(folder: Path, root: Path) -> None:
 
 
 def write_archive(
-    path: Path,
-    folder: Path,
-    names: Iterable[str],
-    comment: str = "",
-    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+    path: Path, folder: Path, names: Iterable[str], comment: str = "", execution: ExecutionOptions = EXECUTION_DEFAULTS
 ) -> None:
     """Write files of a folder into a zip file, in order of their names, and never a whole one in memory.
 

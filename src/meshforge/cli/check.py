@@ -56,10 +56,7 @@ class CheckArguments:
     ] = None
     fix: Annotated[
         bool,
-        typer.Option(
-            "--fix",
-            help="Fix what is beyond the engine's limits, or has too many vertices; write to --out.",
-        ),
+        typer.Option("--fix", help="Fix what is beyond the engine's limits, or has too many vertices; write to --out."),
     ] = False
     out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for the fixed assets.")] = None
     tolerance: Annotated[

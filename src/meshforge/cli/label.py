@@ -135,8 +135,7 @@ class LabelArguments:
     ] = ""
     align: options.Align = None
     dry_run: Annotated[
-        bool,
-        typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
+        bool, typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost.")
     ] = False
     report: options.ReportPath = None
     execution: options.ExecutionArguments = options.EXECUTION

@@ -147,12 +147,9 @@ def _run(debug: bool) -> None:
         sys.exit(error.exit_code if isinstance(error, MeshForgeError) else 2)
 
 
-OTHER_SPELLINGS = {
-    "--again": ("--fresh", "--redo", "--rerun", "--force"),
-    "--min-confidence": ("--sure",),
-    "--decompose": ("--method", "--engine", "--decomposer"),
-}
-"""What options are called elsewhere, by what they are called here."""
+OTHER_SPELLINGS = dict.fromkeys(("--fresh", "--redo", "--rerun", "--force"), "--again") | {"--sure": "--min-confidence"}
+OTHER_SPELLINGS |= dict.fromkeys(("--method", "--engine", "--decomposer"), "--decompose")
+"""What options are called here, by what they are called elsewhere."""
 _PATH_RULES = ("exists", "writable", "resolve_path", "allow_dash", "path_type")
 """What Typer can be asked to check of a path."""
 
@@ -205,11 +202,10 @@ class Command(TyperCommand):
 
         known = {spelling for parameter in self.params for spelling in parameter.opts}
         typed = {word.partition("=")[0] for word in (args[: args.index("--")] if "--" in args else args)}
-        for name in known & OTHER_SPELLINGS.keys():
-            for other in OTHER_SPELLINGS[name]:
-                if other in typed - known:
-                    remedy = f"All options: meshforge {self.name} --help"
-                    raise UsageError(f"meshforge {self.name} has no {other}: it is {name}", remedy=remedy)
+        for other in typed - known:
+            if (name := OTHER_SPELLINGS.get(other)) in known:
+                remedy = f"All options: meshforge {self.name} --help"
+                raise UsageError(f"meshforge {self.name} has no {other}: it is {name}", remedy=remedy)
         try:
             return super().parse_args(ctx, args)
         except BadParameter as error:

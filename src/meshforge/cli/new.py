@@ -52,13 +52,7 @@ def new(given: NewArguments) -> None:
     failed = 0
     if settings:
         failed = decompose_assets(
-            project,
-            assets,
-            settings,
-            hollow=given.hollow,
-            by=given.by,
-            workers=given.workers,
-            timeout=given.timeout,
+            project, assets, settings, hollow=given.hollow, by=given.by, workers=given.workers, timeout=given.timeout
         )
     typer.echo(format_next("made", given.project))
     raise typer.Exit(failed)

@@ -58,8 +58,7 @@ EngineOptions = Annotated[
     typer.Option("--set", metavar="NAME=VALUE", help="An option of the engine, such as threshold=0.1; repeatable."),
 ]
 Hollow = Annotated[
-    bool,
-    typer.Option("--hollow", help="Leave planar holes open, so that shells of one sheet are not filled."),
+    bool, typer.Option("--hollow", help="Leave planar holes open, so that shells of one sheet are not filled.")
 ]
 Seconds = Annotated[float | None, typer.Option("--timeout", min=0.1, help="Seconds to try.")]
 
@@ -73,8 +72,7 @@ MarkNames = Annotated[
     ),
 ]
 UrdfCapsules = Annotated[
-    bool,
-    typer.Option("--urdf-capsules", help="Write capsules as <capsule> in URDFs, which not all readers know."),
+    bool, typer.Option("--urdf-capsules", help="Write capsules as <capsule> in URDFs, which not all readers know.")
 ]
 CollisionPlace = Annotated[
     Collision | None,

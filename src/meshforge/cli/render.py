@@ -19,10 +19,7 @@ class RenderArguments:
 
     context: typer.Context
     asset: AssetFile
-    out: Annotated[
-        Path | None,
-        typer.Option("-o", "--out", help="The PNG or JPEG to write."),
-    ] = None
+    out: Annotated[Path | None, typer.Option("-o", "--out", help="The PNG or JPEG to write.")] = None
     turntable: Annotated[
         Path | None,
         typer.Option("--turntable", help="A GIF to write, in place of a picture: the camera goes once round."),
@@ -42,11 +39,7 @@ class RenderArguments:
         ),
     ] = "iso"
     size: Annotated[
-        str | None,
-        typer.Option(
-            "--size",
-            help="Pixels of the picture, by default 900x700; of a turntable 480x400.",
-        ),
+        str | None, typer.Option("--size", help="Pixels of the picture, by default 900x700; of a turntable 480x400.")
     ] = None
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
     names: Annotated[
@@ -82,10 +75,7 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     mesh = open_asset(given.asset, given.labels, given.project)
     color_by = given.color_by or ("label" if mesh.labels else "hull")
     with progress(None, "drawing"):
-        rendering.write_gif(
-            path,
-            rendering.draw_turn(mesh, rendering.list_turns(), size=size, color_by=color_by),
-        )
+        rendering.write_gif(path, rendering.draw_turn(mesh, rendering.list_turns(), size=size, color_by=color_by))
     remark(f"wrote {escape_name(str(path))}")
 
 

@@ -2,7 +2,6 @@
 the same class. A class is a label with a made name (`part_a`: the hulls of step 1), kept beside the labels."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import replace
 
 from meshforge import language, symbolic, synthesis
 from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions
@@ -43,17 +42,22 @@ def infer_classes(
     observed = find_step_labels(bare, demos, answers, templates)
     if not observed:
         return bare
+    classes = {label.name for one in observed.values() for label in one.values()} - {NO_PART}
+    taken = {
+        (asset, hull): Label(word, 1.0, "step")  # so that a name takes no other hulls from the step
+        for asset, own in _collect_rules(bare, demos, answers, templates).items()
+        for hull, rules in own.items()
+        if bare[asset].hull_of(hull).source in HUMAN_SOURCES and (word := name_class(rules)) in classes
+    }
     annotations = [
-        observed.get(asset, {}).get(hull.name) or evidence_of(hull.annotation)
+        taken.get((asset, hull.name)) or observed.get(asset, {}).get(hull.name) or evidence_of(hull.annotation)
         for asset, mesh in bare.items()
         for hull in mesh.hulls
     ]
     found = model_family(list(bare.values())).infer(annotations)
-    classes = {label.name for one in observed.values() for label in one.values()} - {NO_PART}
-    by_name = _find_classes_of_names(bare, _collect_rules(bare, demos, answers, templates), classes)
     classed = dict[str, SymbolicMesh]()
     for place, (asset, mesh) in enumerate(bare.items()):
-        labels = _choose_labels(mesh, observed.get(asset, {}), found.labels(place, "class"), by_name)
+        labels = _choose_labels(mesh, observed.get(asset, {}), found.labels(place, "class"))
         same = labels == _classes_of(meshes[asset])
         classed[asset] = meshes[asset] if same else mesh.with_labels(labels)
     return classed
@@ -197,26 +201,13 @@ def _invert(selections: Mapping[int, frozenset[str]]) -> dict[str, Rules]:
     return {name: Rules(rule for rule, some in selections.items() if name in some) for name in names}
 
 
-def _find_classes_of_names(
-    meshes: Mapping[str, SymbolicMesh], known: Mapping[str, Mapping[str, Rules]], classes: Collection[str]
-) -> dict[str, str]:
-    """The class, among some, of each part with a name all of whose hulls the same steps take."""
-    taken = dict[str, set[str]]()
-    for asset, own in known.items():
-        for hull, rules in own.items():
-            if label := evidence_of(meshes[asset].hull_of(hull).annotation):
-                taken.setdefault(label.name, set()).add(name_class(rules))
-    return {name: one for name, some in taken.items() for one in some if len(some) == 1 and one in classes}
-
-
 def _choose_labels(
-    mesh: SymbolicMesh, observed: Mapping[str, Label], inferred: Sequence[Label | None], by_name: Mapping[str, str]
+    mesh: SymbolicMesh, observed: Mapping[str, Label], inferred: Sequence[Label | None]
 ) -> dict[str, Label]:
-    """The classes of the hulls without a label: what was shown, else the likeliest class, or that of the likeliest part
-    with a name, so that naming one hull takes no other one from its step."""
-    rows = ((hull, one) for hull, one in zip(mesh.hulls, inferred, strict=True) if one and not hull.annotation)
-    guesses = {hull.name: replace(one, name=by_name.get(one.name, one.name)) for hull, one in rows}
-    return {**{name: one for name, one in guesses.items() if is_class_name(one.name)}, **observed}
+    """The classes of the hulls without a label: what was shown, else the likeliest where that is a class."""
+    rows = zip(mesh.hulls, inferred, strict=True)
+    guesses = {hull.name: one for hull, one in rows if not hull.annotation and one and is_class_name(one.name)}
+    return {**guesses, **observed}
 
 
 def _classes_of(mesh: SymbolicMesh) -> dict[str, Label]:

@@ -92,7 +92,6 @@ class FamilyLabelSources:
         """Return what labelled a project, and is in its labels still; files beside new assets count in any case."""
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {"file": LabelSourceLine(source="file")} | {one.source: one for one in kept.lines}
-        lines.setdefault("names", LabelSourceLine(source="names"))  # of projects of before this was kept
         kinds = {name: _OF_LABELS.get(name, "plugin") for name in lines}
         seen = {"file"}
         for asset in store.assets():

@@ -1,9 +1,7 @@
 """Another name for a label, or a name for a class, in every file of a project; results and sign-offs go with it."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from meshforge import batch
@@ -48,13 +46,13 @@ def rename_label(store: Store, old: str, new: str) -> None:
         after = _rename_in_settings(store, settings, old, new)
         fresh = files.edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
-        inputs, results = learn.digest_learning_inputs(store), _Results.find(store, new)
+        inputs, results = learn.digest_learning_inputs(store), _find_results(store, new)
         for path, text in texts.items():
             write_all_atomically({path: text})
         if program:
             learn.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
         write_atomically(store.layout.settings, fresh)
-        results.rename(store, old, new)
+        _rename_in_results(store, *results, old, new)
 
 
 def list_renamed_files(store: Store) -> tuple[Path, ...]:
@@ -97,12 +95,9 @@ def _name_class(store: Store, old: str, new: str) -> Iterator[tuple[Path, str | 
             continue
         file = store.labels(asset)
         given = {hull: label.rename(old, new) for hull, label in own.items()}
-        labels = {hull: label.rename(old, new) for hull, label in file.labels.items()}
-        words = tuple(dict.fromkeys([*file.vocabulary, new]))
-        yield (
-            layout.labels(asset),
-            format_labels(LabelFile(words, {**given, **labels}, {**classes.digests, **file.digests})),
-        )
+        labels, words = file.rename(old, new).labels, tuple(dict.fromkeys([*file.vocabulary, new]))
+        every = LabelFile(words, {**given, **labels}, {**classes.digests, **file.digests})
+        yield layout.labels(asset), format_labels(every)
         rest = {hull: label for hull, label in classes.labels.items() if hull not in own}
         yield layout.classes(asset), format_labels(LabelFile((), rest, classes.digests)) if rest else None
 
@@ -112,9 +107,7 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
     for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)
         if old in (*file.vocabulary, *(name for label in file.labels.values() for name in label.names)):
-            labels = {key: label.rename(old, new) for key, label in file.labels.items()}
-            words = tuple(new if word == old else word for word in file.vocabulary)
-            yield path, format_labels(LabelFile(words, labels, file.digests))
+            yield path, format_labels(file.rename(old, new))
     for path in map(layout.demonstration, layout.demonstration.ids):
         yield from _rename_in_steps(path, files.DemonstrationFile, old, new)
     for path in map(layout.manual_edits, layout.manual_edits.ids):
@@ -187,63 +180,50 @@ def _rename_in_settings(store: Store, settings: files.Settings, old: str, new: s
     return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})
 
 
-@dataclass(frozen=True)
-class _Results:
-    """What is up to date before a label is renamed. made: outputs, by asset; signed: assets that are signed off."""
-
-    made: Mapping[str, AssetOutput]
-    signed: frozenset[str]
-
-    @staticmethod
-    def find(store: Store, new: str) -> _Results:
-        """Return them; none where the new name is in use already, so that rules may select otherwise from now on."""
-        program, files_of_labels = store.program(), map(store.labels_and_classes, store.assets())
-        words = {name for file in files_of_labels for label in file.labels.values() for name in label.names}
-        try:
-            edits = {} if new in {*words, *(program.labels_in_use if program else ())} else find_inputs(store)
-        except MeshForgeError:  # nothing can be applied, which a status says
-            edits = {}
-        outputs, signed = find_outputs(store.layout, edits), store.sign_offs()
-        bases = find_bases(store, edits, outputs)
-        made = {name: one for name, one in outputs.items() if one.is_whole and is_written(one.stamp, edits[name])}
-        return _Results(
-            made,
-            frozenset(name for name, now in bases.items() if name in signed and not now.changes(signed[name].rests_on)),
-        )
-
-    def rename(self, store: Store, old: str, new: str) -> None:
-        """Let labels beside outputs, verdicts on them and sign-offs follow the name, which all else has by now."""
-        edits, digests = find_inputs(store) if self.made or self.signed else {}, dict[str | None, str | None]()
-        for asset, output in self.made.items():
-            assert output.stamp
-            stamp = _rename_in_output(store.layout.edited, output.stamp, edits[asset], old, new)
-            digests[output_digest(output.stamp)] = output_digest(stamp)
-
-        def follow(event: files.Event) -> files.Event:
-            is_on_output = isinstance(event, VerdictEvent) and event.output in digests
-            return event.model_copy(update={"output": digests[event.output]}) if is_on_output else event
-
-        store.change_events(lambda events: map(follow, events))
-        bases = find_bases(store, edits, find_outputs(store.layout, edits))
-        signed = store.sign_offs()
-        now = {name: signed[name].model_copy(update={"rests_on": bases[name]}) for name in self.signed}
-        store.write_sign_offs({**signed, **now})
+def _find_results(store: Store, new: str) -> tuple[dict[str, AssetOutput], set[str]]:
+    """The outputs and sign-offs that are up to date; none where hulls have the new name already, so that rules may
+    select otherwise from now on."""
+    program, every = store.program(), map(store.labels_and_classes, store.assets())
+    words = {name for file in every for label in file.labels.values() for name in label.names}
+    try:
+        edits = {} if new in {*words, *(program.labels_in_use if program else ())} else find_inputs(store)
+    except MeshForgeError:  # nothing can be applied, which a status says
+        edits = {}
+    outputs, signed = find_outputs(store.layout, edits), store.sign_offs()
+    bases = find_bases(store, edits, outputs)
+    made = {name: one for name, one in outputs.items() if one.is_whole and is_written(one.stamp, edits[name])}
+    return made, {name for name, now in bases.items() if name in signed and not now.changes(signed[name].rests_on)}
 
 
-def _rename_in_output(folder: Path, stamp: batch.Stamp, edit: batch.OutputInputs, old: str, new: str) -> batch.Stamp:
+def _rename_in_results(store: Store, made: Mapping[str, AssetOutput], signed: set[str], old: str, new: str) -> None:
+    """Let labels beside outputs, verdicts on them and sign-offs follow the name, which all else has by now."""
+    edits, digests = find_inputs(store) if made or signed else {}, dict[str | None, str | None]()
+    for asset, stamp in ((asset, output.stamp) for asset, output in made.items() if output.stamp):
+        digests[output_digest(stamp)] = output_digest(_rename_in_output(store, stamp, edits[asset], old, new))
+
+    def follow(event: files.Event) -> files.Event:
+        is_on_output = isinstance(event, VerdictEvent) and event.output in digests
+        return event.model_copy(update={"output": digests[event.output]}) if is_on_output else event
+
+    store.change_events(lambda events: map(follow, events))
+    bases, before = find_bases(store, edits, find_outputs(store.layout, edits)), store.sign_offs()
+    now = {name: before[name].model_copy(update={"rests_on": bases[name]}) for name in signed}
+    store.write_sign_offs({**before, **now})
+
+
+def _rename_in_output(store: Store, stamp: batch.Stamp, edit: batch.OutputInputs, old: str, new: str) -> batch.Stamp:
     """The stamp of an output in which a label has another name, beside it too. edit: what decides it now."""
+
+    def rename(words: Iterable[str | None]) -> tuple[str | None, ...]:
+        return tuple(new if word == old else word for word in words)
+
+    folder, outputs, was = store.layout.edited, dict(stamp.outputs), stamp.inputs or edit
     path = labels_beside(folder / stamp.out)
-    outputs = dict(stamp.outputs)
     if (name := path.relative_to(folder).as_posix()) in outputs:
-        file = read_labels(path)
-        labels = {hull: label.rename(old, new) for hull, label in file.labels.items()}
-        words = tuple(new if word == old else word for word in file.vocabulary)
-        write_atomically(path, format_labels(LabelFile(words, labels, file.digests)))
+        write_atomically(path, format_labels(read_labels(path).rename(old, new)))
         outputs[name] = file_digest(path)
-    kept = {"settings": stamp.inputs.settings, "software": stamp.inputs.software} if stamp.inputs else {}
-    now, before = tuple(new if word == old else word for word in stamp.labels), stamp.labels_before
-    update = {"inputs": edit.model_copy(update=kept), "outputs": outputs, "labels": now}
-    update |= {"labels_before": tuple(new if word == old else word for word in before) if before else before}
-    made = stamp.model_copy(update=update)
+    now = edit.model_copy(update={"settings": was.settings, "software": was.software})
+    labels = {"labels": rename(stamp.labels), "labels_before": stamp.labels_before and rename(stamp.labels_before)}
+    made = stamp.model_copy(update={"inputs": now, "outputs": outputs, **labels})
     made.write(batch.stamp_path(folder, stamp.asset))
     return made

@@ -34,6 +34,11 @@ class LabelFile:
     def __reduce__(self) -> tuple[Any, ...]:
         return LabelFile, (self.vocabulary, dict(self.labels), dict(self.digests))
 
+    def rename(self, old: str, new: str) -> LabelFile:
+        """Return the same where a label has another name."""
+        labels = {hull: label.rename(old, new) for hull, label in self.labels.items()}
+        return LabelFile(tuple(new if word == old else word for word in self.vocabulary), labels, self.digests)
+
     def fill(self, classes: LabelFile) -> LabelFile:
         """Return the same with the classes of hulls that it says nothing of."""
         if not classes.labels:
@@ -165,8 +170,6 @@ def _parse_label(name: str, value: Any, path: Path) -> Label:
     if isinstance(confidence, bool) or not isinstance(confidence, int | float) or not 0.0 <= confidence <= 1.0:
         problem = f"the confidence of hull {name!r} is {confidence!r}, not a number from 0 to 1"
         raise AssetError(problem, where=str(path))
-    if source == "consensus":  # in projects of before
-        source = "propagated"
     if source not in LABEL_SOURCES:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {source!r}", where=str(path), remedy=remedy)
