@@ -92,6 +92,7 @@ class FamilyLabelSources:
         """Return what labelled a project, and is in its labels still; files beside new assets count in any case."""
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {"file": LabelSourceLine(source="file")} | {one.source: one for one in kept.lines}
+        lines.setdefault("names", LabelSourceLine(source="names"))  # also where that file is gone
         kinds = {name: _OF_LABELS.get(name, "plugin") for name in lines}
         seen = {"file"}
         for asset in store.assets():

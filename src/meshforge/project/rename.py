@@ -202,8 +202,9 @@ def _rename_in_results(store: Store, made: Mapping[str, AssetOutput], signed: se
         digests[output_digest(stamp)] = output_digest(_rename_in_output(store, stamp, edits[asset], old, new))
 
     def follow(event: files.Event) -> files.Event:
-        is_on_output = isinstance(event, VerdictEvent) and event.output in digests
-        return event.model_copy(update={"output": digests[event.output]}) if is_on_output else event
+        if not isinstance(event, VerdictEvent) or event.output not in digests:
+            return event
+        return event.model_copy(update={"output": digests[event.output]})
 
     store.change_events(lambda events: map(follow, events))
     bases, before = find_bases(store, edits, find_outputs(store.layout, edits)), store.sign_offs()

@@ -52,7 +52,7 @@ class ProgramRecord(JsonFile):
     """What a program was learned from, and the outcome of learning; question: the id of the one that stayed open."""
 
     program: str
-    inputs_digest: str
+    inputs_digest: str = ""
     status: str = "found"
     question: str | None = None
 

@@ -26,7 +26,7 @@ class SignOffBasis(OutputInputs):
     as they were.
     """
 
-    answers: str
+    answers: str = ""
     output: str | None = None
 
     @staticmethod

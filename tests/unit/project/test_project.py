@@ -37,7 +37,7 @@ def test_a_project_is_not_made_twice(tmp_path: Path) -> None:
     ("act", "said"),
     [
         (Project.open, "meshforge new"),
-        (lambda folder: fresh(folder).apply(), "meshforge synthesize"),
+        (lambda folder: fresh(folder).apply(), "meshforge demonstrate"),
         (lambda folder: labelled(folder).synthesize(), "nothing is demonstrated"),
     ],
 )

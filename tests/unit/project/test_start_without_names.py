@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS
-from meshforge.batch.outcome import Edited, Skipped
+from meshforge.batch.outcome import Edited, Failed, Skipped
 from meshforge.common import ProjectError, UsageError
 from meshforge.language import Delete, Each, Merge
 from meshforge.project import Project, list_renamed_files
@@ -147,6 +147,35 @@ def test_a_class_that_is_taken_away_is_no_part_and_a_label_just_goes(tmp_path: P
     project.set_labels(SECOND, {"crumb": None, "left_low": None})
     labels = project.labels(SECOND).labels
     assert labels["crumb"].name == NO_PART and "left_low" not in labels
+
+
+def test_a_name_for_some_hulls_of_a_class_takes_no_others_from_its_step(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.demonstrate(FIRST, [Step(1, {"crumb", *LEGS}, Delete())])
+    project.synthesize()
+    project.set_vocabulary(["dirt"])
+    project.set_labels(FIRST, {"crumb": "dirt"})
+    assert "Union(Is(dirt), Is(part_a)) => Delete" in str(project.synthesize().program)
+    assert labels_of(project, SECOND) == dict.fromkeys(PARTS, "part_a")
+    done = list(project.apply(execution=IN_PROCESS))
+    assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 1)] * 3
+
+
+@pytest.mark.parametrize(
+    "content", ["", "{", "[]", '{"version": 9, "hulls": {}}', '{"hulls": {"top": {"source": "x"}}}']
+)
+def test_classes_that_are_damaged_are_none_and_made_again(tmp_path: Path, content: str) -> None:
+    project = shown(tmp_path)
+    places = [project.layout.classes(asset) for asset in project.assets()]
+    whole = [place.read_text() for place in places]
+    places[1].write_text(content)
+    assert [asset.labelled for asset in project.status(workers=0).assets] == [6, 0, 6]
+    assert not any(isinstance(one, Failed) for one in project.apply(execution=IN_PROCESS))
+    assert labels_of(project, SECOND) == PARTS
+    for place in places:
+        place.write_text(content)
+    project.synthesize()
+    assert [place.read_text() for place in places] == whole
 
 
 def test_a_dry_run_writes_no_classes_and_labels_need_none(tmp_path: Path) -> None:

@@ -77,6 +77,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
+    touches = tuple(file for file in list_files() if file.words)
     title = "{old} renamed {new}"
     old: str
     new: str
