@@ -42,10 +42,7 @@ def read_knives() -> tuple[dict[str, Polytope], dict[str, list[Polytope]]]:
     maker = corpus("knives_cutlery", "object_sim", "knife")
     (chef,) = read_triangles(maker / "knife.stl")
     (cook,) = read_triangles(corpus("knives_cutlery", "KayKit-Restaurant-Bits-1.0", "knife.gltf"))
-    wholes = {
-        "chef": Polytope(chef.vertices, chef.faces),
-        "cook": Polytope(cook.vertices * GAME_UNIT, cook.faces),
-    }
+    wholes = {"chef": Polytope(chef.vertices, chef.faces), "cook": Polytope(cook.vertices * GAME_UNIT, cook.faces)}
     own = [convex_hull(read_triangles(maker / f"contact{k}.stl")[0].vertices) for k in (0, 1)]
     return wholes, {"chef": own, "cook": decompose_at(wholes["cook"], 0.1)}
 

@@ -8,16 +8,7 @@ from typing import Any
 
 import pytest
 
-from meshforge.batch import (
-    CheckTask,
-    ExecutionOptions,
-    Failed,
-    WorkerFailure,
-    apply,
-    check_assets,
-    expand,
-    make_jobs,
-)
+from meshforge.batch import CheckTask, ExecutionOptions, Failed, WorkerFailure, apply, check_assets, expand, make_jobs
 from meshforge.batch.execution import run_on_cluster
 from meshforge.checks import CheckOptions
 from meshforge.language import Program

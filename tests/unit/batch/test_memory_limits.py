@@ -8,16 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import (
-    ExecutionOptions,
-    Failed,
-    RunSummary,
-    apply,
-    describe_jobs,
-    expand,
-    make_jobs,
-    run_isolated,
-)
+from meshforge.batch import ExecutionOptions, Failed, RunSummary, apply, describe_jobs, expand, make_jobs, run_isolated
 from meshforge.batch.outcome import MOST_SHOWN, Unchanged
 from meshforge.batch.workers import MIB
 from meshforge.language import Program

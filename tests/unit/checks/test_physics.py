@@ -7,17 +7,7 @@ import pytest
 
 from meshforge.checks.physics.mechanism import check_masses
 from meshforge.checks.physics.simulation import simulate
-from meshforge.geometry import (
-    Capsule,
-    Cylinder,
-    Ellipsoid,
-    Polytope,
-    Pose,
-    Shape,
-    Sphere,
-    convex_hull,
-    inertia,
-)
+from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull, inertia
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 from tests.unit.language.scenes import box

@@ -130,12 +130,7 @@ def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
 
 
 @pytest.mark.parametrize(
-    "words",
-    [
-        ("render", "row.obj", "-o"),
-        ("select", "Is(leg)", "row.obj", "-o"),
-        ("diff", "row.obj", "row.obj", "-o"),
-    ],
+    "words", [("render", "row.obj", "-o"), ("select", "Is(leg)", "row.obj", "-o"), ("diff", "row.obj", "row.obj", "-o")]
 )
 def test_a_picture_is_a_jpeg_or_png_as_its_suffix_says(run: Run, words: tuple[str, ...]) -> None:
     assert run(*words, "a.jpg").code == 0

@@ -54,11 +54,7 @@ def test_who_asks_what_is_demonstrated_is_told_that_nothing_is(run: Run) -> None
 def test_an_extractor_sees_what_earlier_steps_made_and_numbers_stay_those_of_the_list(run: Run) -> None:
     steps = ("Is(leg) => Merge as misc", "Is(misc) => Each(Replace(box))", "#0 => Replace(box)")
     told = run("demonstrate", "p", "t0.obj", *steps).out.splitlines()
-    assert told == [
-        f"1. {LEGS} => Merge as misc",
-        "2. left_low~1 => Each(Replace(box))",
-        "3. top => Replace(box)",
-    ]
+    assert told == [f"1. {LEGS} => Merge as misc", "2. left_low~1 => Each(Replace(box))", "3. top => Replace(box)"]
 
 
 @pytest.mark.parametrize(

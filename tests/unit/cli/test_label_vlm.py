@@ -77,10 +77,7 @@ def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, serve
 @pytest.mark.slow
 def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server) -> None:
     lines = run("label", "p", "--with", "vlm", "--json").lines
-    assert lines[2]["open"] == {
-        "top": "the model does not know",
-        "left_low": "the model said wheel, which is no label",
-    }
+    assert lines[2]["open"] == {"top": "the model does not know", "left_low": "the model said wheel, which is no label"}
     assert lines[-1]["bill"]["answered"] == 5
     assert (lines[-1]["ended"], lines[-1]["unasked"], lines[-1]["blind"]) == (None, [], False)
 

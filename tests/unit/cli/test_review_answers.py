@@ -21,13 +21,7 @@ from meshforge.cli.review_answers import (
 from meshforge.common import UsageError
 from meshforge.geometry import Box, Pose
 from meshforge.language import Program
-from meshforge.signoff import (
-    HullPlace,
-    ReviewChoice,
-    ReviewQuestion,
-    ReviewReply,
-    ReviewState,
-)
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, ReviewState
 from meshforge.signoff.question import EXCLUDE, WRONG
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
@@ -68,10 +62,7 @@ def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
         (
             "2 1:left,right 2: left=leg",
             ReviewReply(
-                "result-1",
-                WRONG,
-                selections={1: frozenset({"left", "right"}), 2: frozenset()},
-                labels={"left": "leg"},
+                "result-1", WRONG, selections={1: frozenset({"left", "right"}), 2: frozenset()}, labels={"left": "leg"}
             ),
         ),
     ],

@@ -21,10 +21,7 @@ def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
 
 def test_assets_of_one_reason_share_a_line_with_the_range_of_their_probabilities() -> None:
     reasons = {f"t{k}": (0.9 + 0.004 * k, "outlier") for k in range(9)} | {"odd": (0.5, "a solid block")}
-    assert text_of(reasons) == [
-        "  odd (50%): a solid block",
-        "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): outlier",
-    ]
+    assert text_of(reasons) == ["  odd (50%): a solid block", "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): outlier"]
 
 
 def test_the_order_is_that_of_the_least_probable_of_each_reason_and_what_is_not_listed_is_counted() -> None:

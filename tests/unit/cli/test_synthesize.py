@@ -78,11 +78,7 @@ def test_repairs_are_proposed_with_the_program_they_lead_to(run: Run, tmp_path: 
     lines = told.out.splitlines()
     assert lines[:2] == ["no program yet: 1 label may be wrong", "  knob of rack0.obj: leg -> knob  (99 % sure)"]
     assert "Is(knob) selects what was shown" in lines[2]
-    assert lines[3:] == [
-        "With that, the program is:",
-        "  Is(knob) => Delete",
-        "Next: meshforge review racks",
-    ]
+    assert lines[3:] == ["With that, the program is:", "  Is(knob) => Delete", "Next: meshforge review racks"]
     assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 

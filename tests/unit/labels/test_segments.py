@@ -98,12 +98,7 @@ def test_points_that_fit_stay_as_they_are() -> None:
 
 
 @pytest.mark.parametrize(
-    "points",
-    [
-        CORNERS * 3 + 7,
-        CORNERS[:, [0, 2, 1]] * [1, 1, -1],
-        CORNERS[:, [0, 2, 1]] * [5, 5, -5] + 2,
-    ],
+    "points", [CORNERS * 3 + 7, CORNERS[:, [0, 2, 1]] * [1, 1, -1], CORNERS[:, [0, 2, 1]] * [5, 5, -5] + 2]
 )
 def test_points_elsewhere_are_refused_with_what_makes_them_fit(points: Floats) -> None:
     with pytest.raises(AssetError) as told:

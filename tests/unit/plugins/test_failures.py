@@ -10,14 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import (
-    IN_PROCESS,
-    Failed,
-    apply,
-    expand,
-    make_jobs,
-    read_stamp,
-)
+from meshforge.batch import IN_PROCESS, Failed, apply, expand, make_jobs, read_stamp
 from meshforge.checks import CheckOptions, check, examine_mesh
 from meshforge.common import PluginError, plugins
 from meshforge.formats import load, read

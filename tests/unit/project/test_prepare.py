@@ -119,10 +119,7 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
     found = project.status(workers=0)
     assert found.outdated
     assert [asset.stale for asset in found.assets] == [("preparation", "labels"), ()]
-    assert found.assets[0].prepared == (
-        "2 pieces decomposed into 4 hulls by coacd",
-        "frame/foot cut into 2 hulls",
-    )
+    assert found.assets[0].prepared == ("2 pieces decomposed into 4 hulls by coacd", "frame/foot cut into 2 hulls")
 
 
 def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_path: Path) -> None:

@@ -15,12 +15,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.language import Delete
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import (
-    HullPlace,
-    ReviewChoice,
-    ReviewQuestion,
-    ReviewReply,
-)
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, NOT_SOLVED, RIGHT, WRONG, YES
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Step
