@@ -235,7 +235,7 @@ class History:
         derived = self._derived()
         for name, digest in now.items():
             known = identify_file(name)
-            if digest not in (wanted[name], other[name]) and not (known and known[0].name in derived):
+            if digest not in (wanted[name], other[name]) and not derived & {name, known[0].name if known else name}:
                 raise ConflictError(
                     str(FileConflict(name, None)),
                     where=str(self._folder / name),
