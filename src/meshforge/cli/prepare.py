@@ -173,7 +173,8 @@ def print_results(project: Project, results: Iterable[PreparationResult], json: 
         else:
             _print_one(result)
     if has_made and not json:
-        remark(format_next("prepared" if project.layout.program.exists() else "prepared all", project.folder))
+        beside = "forgot" if project.program_state().outdated else "prepared"
+        remark(format_next(beside if project.layout.program.exists() else "prepared all", project.folder))
     return int(failed)
 
 

@@ -54,8 +54,7 @@ def _print_status(found: Status, folder: Path) -> None:
         right=("hulls",),
     )
     for asset in found.lost:
-        again = "if its file has another name now, give it this one again"
-        typer.echo(f"kept for an asset that is not there: {escape_name(asset)} ({again})")
+        typer.echo(f"kept for an asset that is not there: {escape_name(asset)} (a file of that name gets it back)")
     if found.rules is not None:
         typer.echo(f"\n{format_status(found)}")
     typer.echo(f"\n{format_step(found.next)}")

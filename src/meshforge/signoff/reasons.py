@@ -11,6 +11,7 @@ from meshforge.language import show
 from meshforge.signoff.assessment import MOST_REASONS, NO_EDIT, AssetConfidence, Reason, ReasonKind, ReviewState
 from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.program_run import RULE_OF_FRAME, AlternativeLabel, ProgramRun
+from meshforge.symbolic import is_class_name
 from meshforge.synthesis import LearningOutcome, NeedsRepair
 
 CALLED_WRONG = "a person said that this result is wrong"
@@ -116,7 +117,7 @@ def _list_label_reasons(run: ProgramRun) -> Iterator[Reason]:
         if share < _WORTH_TELLING:
             continue
         names = tuple(alternative.hull for alternative in alternatives)
-        called = f"called {was}" if was else "without a label"
+        called = f"called {was}" if was else "taken by no step" if is_class_name(to) else "without a label"
         is_turned = rule == RULE_OF_FRAME
         what = "the asset would be turned otherwise" if is_turned else f"rule {rule} would select otherwise"
         text = f"{_join(names)} {'is' if len(names) == 1 else 'are'} {called}, and may be {to} ({share:.0%}): {what}"

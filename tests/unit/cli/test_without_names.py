@@ -72,7 +72,7 @@ def test_a_name_that_cannot_be_given_is_one_error_and_changes_nothing(
 
 def test_what_was_shown_on_an_asset_whose_file_has_another_name_comes_back_with_its_name(learned: Run) -> None:
     Path("assets/t0.obj").rename("assets/u0.obj")
-    said = "kept for an asset that is not there: t0.obj (if its file has another name now, give it this one again)"
+    said = "kept for an asset that is not there: t0.obj (a file of that name gets it back)"
     assert said in learned("status", "p").out
     Path("assets/u0.obj").rename("assets/t0.obj")
     assert learned("synthesize", "p").code == 0
