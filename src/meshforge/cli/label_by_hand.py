@@ -13,7 +13,7 @@ from meshforge.common import UsageError, escape_name, pluralize, quote_path, sug
 from meshforge.labels import label_command
 from meshforge.project import Project, list_renamed_files
 from meshforge.store import History
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.symbolic import Label, SymbolicMesh, is_class_name
 
 
 def label_by_hand(
@@ -29,7 +29,7 @@ def label_by_hand(
         remedy = f"meshforge label {quote_path(project.folder)} ASSET '{asset}'"
         raise UsageError(f"{asset}: of which asset?", remedy=remedy)
     asset = asset_id(asset, project)
-    mesh, words = project.mesh(asset), project.vocabulary if vocabulary is None else vocabulary
+    mesh, words = project.mesh(asset), project.words if vocabulary is None else vocabulary
     if not texts:
         remedy = label_command(project.folder, asset, next(iter(mesh.index), "HULLS"), words)
         raise UsageError(f"what is to be labelled on {asset} is missing", remedy=remedy)
@@ -86,7 +86,7 @@ def _parse_labels(texts: Sequence[str], mesh: SymbolicMesh, words: Sequence[str]
         if not sign or not hulls:
             raise UsageError(f"{text}: it needs hulls and a label", remedy="Write it so: 'HULLS=LABEL'.")
         if label and label not in words:
-            remedy = suggest_among(label, words) + (" Set it with: --vocabulary a,b,c" if not words else "")
+            remedy = suggest_among(label, words) + " Set it with: --vocabulary a,b,c" * all(map(is_class_name, words))
             raise UsageError(f"{text}: the label {label!r} is not in the vocabulary", remedy=remedy)
         found |= dict.fromkeys(find_hulls(hulls, mesh.index, text, see), label or None)
     return {name: found[name] for name in mesh.index if name in found}

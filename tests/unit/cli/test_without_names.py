@@ -50,6 +50,15 @@ def test_where_steps_gave_classes_they_are_named_as_labels_are(learned: Run) -> 
     assert "Learning gives them to the assets of a project, by its demonstrations" in told.out
 
 
+def test_a_class_is_corrected_by_hand_as_a_label_is(learned: Run) -> None:
+    assert learned("label", "p", "t1.obj", "top=part_a", "crumb=").out.startswith("t1.obj: 1 hull labelled part_a, ")
+    assert learned("select", "Is(part_a)", "t1.obj", "--project", "p").out == "top\n"
+    refused = learned("label", "p", "t1.obj", "top=leg").err
+    assert refused.endswith("The vocabulary is part_a, part_b. Set it with: --vocabulary a,b,c\n")
+    assert learned("label", "p", "--rename", "part_a=slab").code == 0
+    assert learned("select", "Is(slab)", "t1.obj", "--project", "p").out == "top\n"
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
