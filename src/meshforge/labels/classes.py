@@ -9,7 +9,7 @@ from meshforge.geometry import digest
 from meshforge.label_model import evidence_of, model_family
 from meshforge.labels.family_comparison import compare_assets
 from meshforge.labels.labeler import LabelFamily, ignore_stage
-from meshforge.store import Store
+from meshforge.store import Store, iterate_asset_index
 from meshforge.symbolic import (
     CLASS_SOURCES,
     HUMAN_SOURCES,
@@ -20,6 +20,7 @@ from meshforge.symbolic import (
     LabelFile,
     SymbolicMesh,
     is_class_name,
+    match_labels,
     name_class,
 )
 
@@ -102,12 +103,14 @@ def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mappin
 
 
 def complete_classes(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> None:
-    """Write the classes of assets that have none and no labels, by those that steps gave: of new assets, and of those
-    at which learning does not look in a very large family."""
+    """Write the classes of assets that have none and no labels, by those that steps gave: of new assets, of those at
+    which learning does not look in a very large family, and where hulls were cut or decomposed since."""
     layout = store.layout
     kept = {one for one in layout.classes.ids if one in store.found.ids}
     shown = {one for one in kept if store.classes(one).labels}
     bare = {one for one in store.assets() if not layout.labels(one).exists()} - shown | (kept - shown)
+    facts = iterate_asset_index(store.found, layout, shown, execution=execution)
+    bare |= {one for one, own in facts if not own.error and match_labels(store.classes(one), own.hulls).gone}
     steps = {
         one: {n: label for n, label in store.labels_and_classes(one).labels.items() if evidence_of(label)}
         for one in shown
@@ -121,8 +124,9 @@ def complete_classes(store: Store, execution: ExecutionOptions = EXECUTION_DEFAU
     texts = dict[str, str | None]()
     for asset, own in compared.share_out(labels):
         classes = {hull: label for hull, label in own.items() if is_class_name(label.name)}
-        if asset in bare and classes:
-            texts[asset] = symbolic.format_labels(LabelFile((), classes, compared.hulls[asset]))
+        if asset in bare:
+            file = LabelFile((), classes, compared.hulls[asset])
+            texts[asset] = symbolic.format_labels(file) if classes else None
     with store.lock():
         store.write_classes(texts)
 

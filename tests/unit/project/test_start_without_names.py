@@ -141,6 +141,13 @@ def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) ->
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 4
 
 
+def test_hulls_that_were_cut_since_get_classes_when_the_program_is_applied(tmp_path: Path) -> None:
+    project = shown(tmp_path)
+    project.cut(THIRD, "crumb", (5.05, 5.05, 5.05), (1, 0, 0))
+    done = list(project.apply([THIRD], execution=IN_PROCESS))
+    assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(7, 3)]
+
+
 def test_a_class_that_is_taken_away_is_no_part_and_a_label_just_goes(tmp_path: Path) -> None:
     project = shown(tmp_path)
     project.rename_label("part_b", "leg")
