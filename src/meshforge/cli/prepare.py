@@ -173,8 +173,10 @@ def print_results(project: Project, results: Iterable[PreparationResult], json: 
         else:
             _print_one(result)
     if has_made and not json:
-        beside = "forgot" if project.program_state().outdated else "prepared"
-        remark(format_next(beside if project.layout.program.exists() else "prepared all", project.folder))
+        state, has_program = project.program_state(), project.layout.program.exists()
+        remark(
+            format_next("forgot" if state.outdated else "prepared" if has_program else "prepared all", project.folder)
+        )
     return int(failed)
 
 

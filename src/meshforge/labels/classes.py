@@ -10,19 +10,7 @@ from meshforge.label_model import evidence_of, model_family
 from meshforge.labels.family_comparison import compare_assets
 from meshforge.labels.labeler import LabelFamily, ignore_stage
 from meshforge.store import Store, iterate_asset_index
-from meshforge.symbolic import (
-    CLASS_SOURCES,
-    HUMAN_SOURCES,
-    INFERRED_SOURCES,
-    NO_PART,
-    Hull,
-    Label,
-    LabelFile,
-    SymbolicMesh,
-    is_class_name,
-    match_labels,
-    name_class,
-)
+from meshforge.symbolic import NO_PART, Label, LabelFile, SymbolicMesh, is_class_name, name_class
 
 Rules = frozenset[int]
 """The numbers of the rules that take a hull; none: it is none of the parts."""
@@ -39,7 +27,7 @@ def infer_classes(
 
     demos: by asset; answers: what a person said since of the hulls that rules select.
     """
-    bare = {name: _remove(mesh, CLASS_SOURCES) for name, mesh in meshes.items()}
+    bare = {name: _remove(mesh, symbolic.CLASS_SOURCES) for name, mesh in meshes.items()}
     observed = find_step_labels(bare, demos, answers, templates)
     if not observed:
         return bare
@@ -48,7 +36,7 @@ def infer_classes(
         (asset, hull): Label(word, 1.0, "step")  # so that a name takes no other hulls from the step
         for asset, own in _collect_rules(bare, demos, answers, templates).items()
         for hull, rules in own.items()
-        if bare[asset].hull_of(hull).source in HUMAN_SOURCES and (word := name_class(rules)) in classes
+        if bare[asset].hull_of(hull).source in symbolic.HUMAN_SOURCES and (word := name_class(rules)) in classes
     }
     annotations = [
         taken.get((asset, hull.name)) or observed.get(asset, {}).get(hull.name) or evidence_of(hull.annotation)
@@ -79,11 +67,11 @@ def find_step_labels(
     inferred are no names.
     """
     is_complete = any(map(_is_named, meshes.values()))
-    bare = meshes if is_complete else {n: _remove(mesh, INFERRED_SOURCES) for n, mesh in meshes.items()}
+    bare = meshes if is_complete else {n: _remove(mesh, symbolic.INFERRED_SOURCES) for n, mesh in meshes.items()}
     known = _collect_rules(bare, demos, answers, templates)
     rows = [(asset, bare[asset].hull_of(hull), rules) for asset, one in known.items() for hull, rules in one.items()]
     covered = {rules for _, hull, rules in rows if not _has_no_name(hull)}
-    by_people = {asset for asset, hull, _ in rows if hull.source in HUMAN_SOURCES and not _has_no_name(hull)}
+    by_people = {asset for asset, hull, _ in rows if hull.source in symbolic.HUMAN_SOURCES and not _has_no_name(hull)}
     found = dict[str, dict[str, Label]]()
     for asset, hull, rules in rows:
         if _has_no_name(hull) and (asset in by_people or rules not in covered):
@@ -110,7 +98,7 @@ def complete_classes(store: Store, execution: ExecutionOptions = EXECUTION_DEFAU
     shown = {one for one in kept if store.classes(one).labels}
     bare = {one for one in store.assets() if not layout.labels(one).exists()} - shown | (kept - shown)
     facts = iterate_asset_index(store.found, layout, shown, execution=execution)
-    bare |= {one for one, own in facts if not own.error and match_labels(store.classes(one), own.hulls).gone}
+    bare |= {one for one, own in facts if not own.error and symbolic.match_labels(store.classes(one), own.hulls).gone}
     steps = {
         one: {n: label for n, label in store.labels_and_classes(one).labels.items() if evidence_of(label)}
         for one in shown
@@ -195,7 +183,7 @@ def _rules_of_demonstration(
     return {hull.name: taken.get(hull.name, Rules()) for hull in mesh.hulls if is_whole or hull.name in taken}
 
 
-def _has_no_name(hull: Hull) -> bool:
+def _has_no_name(hull: symbolic.Hull) -> bool:
     """Whether nobody named the part that a hull is of."""
     return hull.annotation is None or is_class_name(hull.annotation.name)
 
@@ -215,7 +203,7 @@ def _choose_labels(
 
 
 def _classes_of(mesh: SymbolicMesh) -> dict[str, Label]:
-    return {name: label for name, label in mesh.labels.items() if label.source in CLASS_SOURCES}
+    return {name: label for name, label in mesh.labels.items() if label.source in symbolic.CLASS_SOURCES}
 
 
 def format_classes(mesh: SymbolicMesh) -> str | None:

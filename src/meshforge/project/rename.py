@@ -4,18 +4,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from meshforge import batch
+from meshforge import batch, common
 from meshforge import store as files
-from meshforge.common import (
-    MeshForgeError,
-    ProgramError,
-    ProjectError,
-    file_digest,
-    quote_path,
-    suggest_name,
-    write_all_atomically,
-    write_atomically,
-)
+from meshforge.common import ProjectError, quote_path, suggest_name, write_all_atomically, write_atomically
 from meshforge.formats import labels_beside
 from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sources
 from meshforge.labels.like_reference import read_references
@@ -81,7 +72,7 @@ def _check_names(store: Store, named: str | None, old: str, new: str) -> None:
 def _is_writable(label: str) -> bool:
     try:
         return label.isprintable() and Program.parse(str(Program(labels=(label,)))).labels == (label,)
-    except ProgramError:
+    except common.ProgramError:
         return False
 
 
@@ -187,7 +178,7 @@ def _find_results(store: Store, new: str) -> tuple[dict[str, AssetOutput], set[s
     words = {name for file in every for label in file.labels.values() for name in label.names}
     try:
         edits = {} if new in {*words, *(program.labels_in_use if program else ())} else find_inputs(store)
-    except MeshForgeError:  # nothing can be applied, which a status says
+    except common.MeshForgeError:  # nothing can be applied, which a status says
         edits = {}
     outputs, signed = find_outputs(store.layout, edits), store.sign_offs()
     bases = find_bases(store, edits, outputs)
@@ -222,7 +213,7 @@ def _rename_in_output(store: Store, stamp: batch.Stamp, edit: batch.OutputInputs
     path = labels_beside(folder / stamp.out)
     if (name := path.relative_to(folder).as_posix()) in outputs:
         write_atomically(path, format_labels(read_labels(path).rename(old, new)))
-        outputs[name] = file_digest(path)
+        outputs[name] = common.file_digest(path)
     now = edit.model_copy(update={"settings": was.settings, "software": was.software})
     labels = {"labels": rename(stamp.labels), "labels_before": stamp.labels_before and rename(stamp.labels_before)}
     made = stamp.model_copy(update={"inputs": now, "outputs": outputs, **labels})
