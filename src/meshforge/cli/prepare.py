@@ -173,10 +173,8 @@ def print_results(project: Project, results: Iterable[PreparationResult], json: 
         else:
             _print_one(result)
     if has_made and not json:
-        state, has_program = project.program_state(), project.layout.program.exists()
-        remark(
-            format_next("forgot" if state.outdated else "prepared" if has_program else "prepared all", project.folder)
-        )
+        is_old, has_program = project.program_state().outdated, project.layout.program.exists()
+        remark(format_next("forgot" if is_old else "prepared" if has_program else "prepared all", project.folder))
     return int(failed)
 
 

@@ -82,7 +82,8 @@ def replace_atomically(path: Path) -> Iterator[Path]:
     except BaseException as error:
         if draft:
             draft.unlink(missing_ok=True)
-        if isinstance(error, OSError) and error.errno in DISK_ERRORS:  # it names the draft, or no file at all
+        refused = (*DISK_ERRORS, errno.EACCES, errno.EPERM)
+        if isinstance(error, OSError) and error.errno in refused:  # it names the draft, or no file at all
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
