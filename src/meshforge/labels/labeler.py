@@ -78,9 +78,11 @@ class LabelFamily:
         """Return the vocabulary. Raises ProjectError where it is empty."""
         if not self.vocabulary:
             remedy = "Say first what hulls can be: --vocabulary a,b,c."
+            word = quote_path(self.store.folder)
             if classes := self.store.words:
-                command = f"meshforge label {quote_path(self.store.folder)} --rename {classes[0]}=NAME"
-                remedy += f" Or name the hulls that a step takes: {command}"
+                remedy += f" Or name the hulls that a step takes: meshforge label {word} --rename {classes[0]}=NAME"
+            elif self.store.demonstration_ids():
+                remedy += f" Or learn without names from what was shown: meshforge synthesize {word}"
             raise ProjectError("the vocabulary is empty", where=str(self.store.folder), remedy=remedy)
         return self.vocabulary
 

@@ -31,12 +31,13 @@ def learned(run: Run) -> Run:
     return run
 
 
-@pytest.mark.parametrize(
-    "words", [["label", "p"], ["label", "p", "--with", "propagate"], ["synthesize", "p"], ["apply", "p"]]
-)
-def test_before_anything_each_command_says_how_to_show_the_steps(run: Run, words: list[str]) -> None:
-    told = run(*words)
+@pytest.mark.parametrize("words", ["label p", "label p --with propagate", "synthesize p", "apply p"])
+def test_each_command_that_cannot_go_on_says_what_comes_first(run: Run, words: str) -> None:
+    told = run(*words.split())
     assert told.code == 2 and told.err.count("error: ") == 1 and SHOW in told.err
+    run("demonstrate", "p", "t0.obj", "crumb => Delete")
+    told = run(*words.split())
+    assert told.code == 0 if words == "synthesize p" else "meshforge synthesize p" in told.err
 
 
 def test_where_steps_gave_classes_they_are_named_as_labels_are(learned: Run) -> None:
