@@ -14,6 +14,8 @@ from benchmark.signoff.outcomes import (
     right_when_done,
     share,
     share_signed_off,
+    share_sooner,
+    time_by_keys,
     wrong_when_done,
 )
 from benchmark.signoff.queue import Review
@@ -40,6 +42,8 @@ RIGHT_ON_REAL: Mapping[Condition, float] = {
 }  # fmt: skip
 """Percent right and signed off when done."""
 _SECONDS: Mapping[Condition, float] = {TRUE: 45.0, FLAT: 60.0, PROPAGATED[2]: 200.0, NONE: 170.0}
+_BY_KEYS: Mapping[Condition, float] = {PROPAGATED[2]: 110.0, NONE: 110.0}
+"""Seconds by the mouse, and by keys and look-alikes."""
 _EARLY = (FLAT, SYSTEMATIC, PROPAGATED[2], NONE)
 
 
@@ -61,6 +65,13 @@ def list_goals(groups: Sequence[Group], right: Mapping[Condition, float]) -> Ite
         if one := by_name.get(condition.name):
             seconds = mean_over_tasks(one.reviews, person_time)
             yield Goal(f"a person's time until done, {condition.name}, s", "at most", most_seconds, seconds)
+    for condition, most_seconds in _BY_KEYS.items():
+        if one := by_name.get(condition.name):
+            seconds = mean_over_tasks(one.reviews, time_by_keys)
+            yield Goal(f"… by keys and look-alikes, {condition.name}, s", "at most", most_seconds, seconds)
+            if right is RIGHT_ON_REAL:
+                told = f"sessions sooner than all by hand, {condition.name}, by keys and look-alikes, %"
+                yield Goal(told, "at least", 75.0, share_sooner(one.reviews))
     told = f"sessions broken off, or with more than {MUCH_WRONG:.0f}% signed off wrong"
     yield Goal(told, "at most", 0.0, sum(map(is_amiss, every)))
     told = f"sessions with {MANY} or more results corrected one by one, %"

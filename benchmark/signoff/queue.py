@@ -11,6 +11,7 @@ from typing import Any
 
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Output
+from benchmark.signoff.ledger import price_of_hand_by_keys
 from benchmark.signoff.point import Point
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.study.client import TaskClient
@@ -39,12 +40,14 @@ class Review:
     """One session.
 
     assets, possible: of the family, and those that the reference gets right under true labels; reference: those that
-    it gets right under the labels there are in the end; seconds, acts: of the person, by what they did; aside: assets
-    set aside; first: of each asset not demonstrated, where a right edit is possible, the probability that the tool gave
-    it when it first had a program, and whether it was right; wrong: assets signed off in the end, yet not right;
-    unseen: assets that nobody had demonstrated when there was the first program; early, early_wrong: those of them that
-    were signed off then, and of these the ones that were not right; misnamed: on the meshes that were demonstrated by
-    then, the labels that had been wrong; refused: repairs that were proposed though no label was wrong.
+    it gets right under the labels there are in the end; seconds, by_keys, acts: of the person, by what they did, as in
+    `Ledger`; all_by_hand: seconds by keys to edit each asset by hand, without the tool; aside: assets set aside;
+    first: of each asset not demonstrated, where a right edit is possible, the probability that the tool gave it
+    when it first had a program, and whether it was right; wrong: assets signed off in the end, yet not right;
+    unseen: assets that nobody had demonstrated when there was the first program; early, early_wrong: those of them
+    that were signed off then, and of these the ones that were not right; misnamed: on the meshes that were
+    demonstrated by then, the labels that had been wrong; refused: repairs that were proposed though no label was
+    wrong.
     """
 
     task: str
@@ -58,6 +61,8 @@ class Review:
     program: str | None = None
     points: list[Point] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
+    by_keys: dict[str, float] = field(default_factory=dict)
+    all_by_hand: float = 0.0
     acts: dict[str, int] = field(default_factory=dict)
     aside: list[str] = field(default_factory=list)
     first: list[tuple[float, bool]] = field(default_factory=list)
@@ -110,9 +115,15 @@ class ReviewCourse:
         log.reference = self.judge.count_right(self.desk, self.bench.task.program)
         log.program = str(program) if program else None
         log.seconds = {what: round(seconds, 2) for what, seconds in ledger.seconds.items()}
+        log.by_keys = {what: round(seconds, 2) for what, seconds in ledger.by_keys.items()}
+        log.all_by_hand = round(self._price_all_by_hand(), 2)
         log.acts, log.refused = dict(ledger.acts), self.reviewer.refused
         log.aside = sorted(self._status.excluded) if self._status else []
         return log
+
+    def _price_all_by_hand(self) -> float:
+        edits = ((name, wanted) for name, wanted in self.bench.truth.reference.items() if wanted is not None)
+        return sum(price_of_hand_by_keys(wanted, self.bench.find_alike(name)) for name, wanted in edits)
 
     def _step(self, cap: float) -> None:
         """Look how the family stands, and take what is asked."""
@@ -187,7 +198,7 @@ class ReviewCourse:
             return
         done, wanted = output.selections if output else None, self.bench.truth.reference[name]
         if done is not None and wanted is not None and done != wanted:
-            selections = self.reviewer.correct_selections(done, wanted)
+            selections = self.reviewer.correct_selections(name, done, wanted)
             self._reply(question, replace(reply, selections=selections))
             return
         there = [hull.name for hull in self.desk.meshes[name].hulls]

@@ -6,10 +6,26 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from benchmark.signoff.judge import Judge, Output
-from benchmark.signoff.ledger import Ledger, price_of_hand, price_of_mend
+from benchmark.signoff.ledger import (
+    Ledger,
+    price_of_hand,
+    price_of_hand_by_keys,
+    price_of_mend,
+    price_of_mend_by_keys,
+)
 from benchmark.study.condition import Condition
 from benchmark.study.desk import Bench, Desk, Selections
-from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, STROKE, price_group
+from benchmark.study.keystrokes import (
+    ANSWER,
+    APPROVAL,
+    CONFIRMATION,
+    GLANCE,
+    KEY,
+    STROKE,
+    THINK,
+    price_group,
+    price_group_by_keys,
+)
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
@@ -32,7 +48,7 @@ class Reviewer:
         self.person, self.judge, self.ledger = Person(bench.truth, seed, condition), Judge(bench), Ledger()
         self.slipped, self.refused = set[str](), 0
         self._looked_at = set[HullPlace]()
-        self._truth = bench.truth
+        self._truth, self._bench = bench.truth, bench
 
     def reply(
         self, question: ReviewQuestion, desk: Desk, program: Program | None, output: Output | None
@@ -58,7 +74,8 @@ class Reviewer:
         right = best if best is not None and counts[labels[best] or ""] else None
         told = None if right is None else labels[right]
         odd = {place: self._label_of(place) for place in question.hulls if self._label_of(place) != told}
-        self.ledger.add("group", price_group(len(question.hulls), len(odd)) + STROKE * len(set(odd.values())))
+        strokes, sizes = STROKE * len(set(odd.values())), (len(question.hulls), len(odd))
+        self.ledger.add("group", price_group(*sizes) + strokes, price_group_by_keys(*sizes) + strokes)
         seen = {place: label for place, label in odd.items() if not self.person.errs_now()}
         return ReviewReply(question.id, self._slip(question, right), seen)
 
@@ -67,7 +84,7 @@ class Reviewer:
         choices = [frozenset(choice.select or ()) for choice in question.choices]
         where = (question.asset, question.rule or 1)
         right = self.person.picks(desk, where, choices, program) if program else None
-        self.ledger.add(question.kind, ANSWER)
+        self.ledger.add(question.kind, ANSWER, 2 * THINK + KEY)
         return ReviewReply(question.id, self._slip(question, right))
 
     def _check_selection(self, question: ReviewQuestion) -> ReviewReply:
@@ -80,19 +97,19 @@ class Reviewer:
             len(meant ^ frozenset(choice.select or ())) if choice.label is None else -1 if choice.label == true else 1e9
             for choice in question.choices
         ]
-        self.ledger.add(question.kind, CONFIRMATION)
+        self.ledger.add(question.kind, CONFIRMATION, THINK + KEY)
         return ReviewReply(question.id, self._slip(question, gaps.index(min(gaps))))
 
     def _confirm(self, question: ReviewQuestion) -> ReviewReply:
         """The label of one hull; an orientation is theirs already, so that another one is declined."""
         if question.kind == "orientation":
-            self.ledger.add(question.kind, CONFIRMATION)
+            self.ledger.add(question.kind, CONFIRMATION, THINK + KEY)
             return ReviewReply(question.id, self._slip(question, [one.id for one in question.choices].index(NO)))
         labels = [choice.label for choice in question.choices]
         true = self._label_of(question.hulls[0]) if question.hulls else None
         right = labels.index(true) if true is not None and true in labels else None
         self.refused += question.kind == "repair" and right is None
-        self.ledger.add(question.kind, CONFIRMATION)
+        self.ledger.add(question.kind, CONFIRMATION, THINK + KEY)
         return ReviewReply(question.id, self._slip(question, right))
 
     def _slip(self, question: ReviewQuestion, right: int | None) -> str | None:
@@ -104,13 +121,14 @@ class Reviewer:
         """Whether a result is right; set aside what nobody could show."""
         there = question.choice(RIGHT) is not None  # else the program cannot run, or it was called wrong before
         right = (self.judge.looks_right(question.asset, output) != self.person.errs_now()) and there
-        self.ledger.add("result", GLANCE + APPROVAL)
+        self.ledger.add("result", GLANCE + APPROVAL, GLANCE + KEY)
         given_up = self._truth.reference[question.asset] is None
         return ReviewReply(question.id, RIGHT if right else "not-solved" if given_up else WRONG)
 
-    def correct_selections(self, done: Selections, wanted: Selections) -> dict[int, frozenset[str]]:
-        """What rules should have selected, by their numbers, of those that selected something else."""
-        self.ledger.add("correction", price_of_mend(done, wanted))
+    def correct_selections(self, name: str, done: Selections, wanted: Selections) -> dict[int, frozenset[str]]:
+        """What rules should have selected on a mesh, by their numbers, of those that selected something else."""
+        by_keys = price_of_mend_by_keys(done, wanted, self._bench.find_alike(name))
+        self.ledger.add("correction", price_of_mend(done, wanted), by_keys)
         found = dict[int, frozenset[str]]()
         for rule, (one, other) in enumerate(zip(done, wanted, strict=True), 1):
             slip = frozenset(hull for hull in sorted(one ^ other) if self.person.errs_now())
@@ -126,16 +144,17 @@ class Reviewer:
         self.slipped.discard(name)
         if any(made.select != step.select for made, step in zip(steps, meant.steps, strict=True)):
             self.slipped.add(name)
-        self.ledger.add(act, price_of_hand(selections))
+        by_keys = price_of_hand_by_keys(selections, self._bench.find_alike(name))
+        self.ledger.add(act, price_of_hand(selections), by_keys)
         return Demonstration(meant.mesh, steps, name)
 
     def _select(self, step: Step) -> list[str] | None:
         return None if step.select is None else [name for name in sorted(step.select) if not self.person.errs_now()]
 
-    def name_hulls(self, name: str, hulls: Iterable[str], inspected: int = 0) -> dict[str, str]:
-        """The true labels of some hulls of a mesh, given by hand; inspected: hulls looked at before."""
+    def name_hulls(self, name: str, hulls: Iterable[str], looked_at: Sequence[str | None] = ()) -> dict[str, str]:
+        """The true labels of some hulls of a mesh, given by hand; looked_at: labels of hulls looked at before."""
         labels = {hull: self._label_of(HullPlace(name, hull)) for hull in hulls}
-        self.ledger.add_labels(HandLabels(inspected, len(labels), len(set(labels.values()))))
+        self.ledger.add_labels(HandLabels.of(self._bench, name, looked_at, labels.items()))
         return labels
 
     def inspect_labels(self, desk: Desk, name: str, hulls: Sequence[str]) -> dict[str, str]:
@@ -143,8 +162,11 @@ class Reviewer:
         left = [hull for hull in hulls if HullPlace(name, hull) not in self._looked_at]
         self._looked_at.update(HullPlace(name, hull) for hull in left)
         mesh = desk.meshes[name]
-        wrong = [hull for hull in left if mesh.hull_of(hull).label != self._label_of(HullPlace(name, hull))]
-        return self.name_hulls(name, [hull for hull in wrong if not self.person.errs_now()], len(left))
+        there = [mesh.hull_of(hull).label for hull in left]
+        wrong = [
+            hull for hull, label in zip(left, there, strict=True) if label != self._label_of(HullPlace(name, hull))
+        ]
+        return self.name_hulls(name, [hull for hull in wrong if not self.person.errs_now()], there)
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)

@@ -21,11 +21,13 @@ from benchmark.signoff.outcomes import (
     right_when_done,
     share,
     share_signed_off,
+    share_sooner,
     spread_over_tasks,
+    time_by_keys,
     wrong_when_done,
 )
-from benchmark.signoff.queue import DONE
-from benchmark.study.keystrokes import PRICES
+from benchmark.signoff.queue import DONE, Review
+from benchmark.study.keystrokes import BY_KEYS, PRICES
 
 CURVES = "Edits right after so many seconds of a person, %"
 QUEUE, BEFORE, BY_HAND, REFERENCE = "the queue", "as it was", "then by hand", "the reference, same labels"
@@ -37,11 +39,13 @@ def list_tables(groups: Sequence[Group]) -> tuple[Table, ...]:
         _tell_right(groups),
         _tell_time(groups),
         _tell_acts(groups),
+        _tell_by_keys(groups),
         _tell_calibration(groups),
         _tell_curves(groups),
         *(_tell_tasks(one) for one in groups if "flat" in one.condition and "errs" not in one.condition),
         _tell_ends(groups),
         Table("Prices of the acts, modelled", ("act", "s"), tuple(PRICES.items())),
+        Table("Prices by keys and look-alikes", ("act", "s"), tuple(BY_KEYS.items())),
     )
 
 
@@ -127,6 +131,23 @@ def _tell_acts(groups: Sequence[Group]) -> Table:
 def _tell_act(one: Group, kind: str) -> str:
     count = mean_over_tasks(one.reviews, lambda row: row.acts.get(kind, 0))
     return f"{count:.1f}: {mean_over_tasks(one.reviews, lambda row: row.seconds.get(kind, 0.0)):.0f} s"
+
+
+def _tell_by_keys(groups: Sequence[Group]) -> Table:
+    kinds = sorted({what for one in groups for row in one.reviews for what in row.by_keys})
+    columns = ("condition", "until done", "each asset by hand", "sessions sooner than that, %", *kinds)
+    return Table("Seconds by keys and look-alikes", columns, tuple(_by_keys_row(one, kinds) for one in groups))
+
+
+def _by_keys_row(one: Group, kinds: Sequence[str]) -> tuple[Cell, ...]:
+    done = mean_over_tasks(one.reviews, time_by_keys)
+    hand = mean_over_tasks(one.reviews, lambda row: row.all_by_hand)
+    spent = (mean_over_tasks(one.reviews, partial(_seconds_of, kind)) for kind in kinds)
+    return (one.condition, done, hand, share_sooner(one.reviews), *spent)
+
+
+def _seconds_of(kind: str, row: Review) -> float:
+    return row.by_keys.get(kind, 0.0)
 
 
 def _tell_calibration(groups: Sequence[Group]) -> Table:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from hashlib import blake2b
@@ -10,6 +10,7 @@ from hashlib import blake2b
 from benchmark.assets import SEPARATE, Sample, family
 from benchmark.study.condition import Labels
 from benchmark.study.labels import mislabel, noisy
+from benchmark.study.lookalikes import LookAlikes
 from benchmark.tasks import EditResult, Task, task
 from meshforge.language import EXTREMITY, Extractor, Program, Replay, select_mask
 from meshforge.signoff import EditMeasures, measure_edit
@@ -44,6 +45,13 @@ class Bench:
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
         self._judged: dict[tuple[str, str | None, bytes], str | None] = {}
         self._measured: dict[tuple[str, bytes], EditMeasures] = {}
+        self._alike: dict[str, LookAlikes] = {}
+
+    def find_alike(self, name: str) -> Callable[[str], frozenset[str]]:
+        """What gives the look-alikes of a hull of a mesh."""
+        if name not in self._alike:
+            self._alike[name] = LookAlikes(self.samples[name].mesh)
+        return self._alike[name].find
 
     @cached_property
     def pure(self) -> frozenset[str]:

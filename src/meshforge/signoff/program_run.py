@@ -101,13 +101,23 @@ def find_alternatives(
                 at = met.index.get(hull.name)
                 if at is None or names[at] != hull.label or not {to, hull.label} & asked[number - 1]:
                     continue
-                other = select_mask(rule.extractor, met, delta, [*names[:at], to, *names[at + 1 :]])
+                asks = to if to in asked[number - 1] else None  # any other is alike to the rule
+                other = _select_with_label(rule.extractor, met, delta, at, asks, names)
                 if other != run.selections[number - 1]:
                     others[number] = other
             if others:
                 chance = float(chances[row, place])
                 found.append(AlternativeLabel(hull.name, hull.label, to, chance, tuple(others), tuple(others.values())))
     return tuple(found)
+
+
+def _select_with_label(
+    extractor: Extractor, mesh: SymbolicMesh, delta: float, place: int, to: str | None, labels: Sequence[str | None]
+) -> int:
+    """What an extractor selects with another label of one hull; labels: of all hulls now."""
+    other = [*labels[:place], to, *labels[place + 1 :]]
+    key = ("selected", extractor, delta, place, to)
+    return memoize(mesh, key, int, lambda: select_mask(extractor, mesh, delta, other))
 
 
 def _turns(mesh: SymbolicMesh, row: int, to: str, orient: Orient | None, before: Floats | None) -> bool:

@@ -68,7 +68,8 @@ def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, conditi
     seconds = [point.seconds for point in one.points]
     assert seconds == sorted(seconds)
     assert sum(one.seconds.values()) == pytest.approx(seconds[-1], abs=0.1)
-    assert one.seconds.keys() == one.acts.keys()
+    assert one.seconds.keys() == one.by_keys.keys() == one.acts.keys()
+    assert 0 < sum(one.by_keys.values()) < sum(one.seconds.values())
     assert one.possible <= one.assets == len(bench.samples)
     for point in one.points:
         assert point.signed_off + point.held <= one.assets
