@@ -152,8 +152,7 @@ def test_a_colour_of_the_description_goes_before_what_its_mesh_has(folder: Path)
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
-    [("vt 1 1", "vt 1 x"), ("5/3", "5/9"), ("sheet.mtl", "none.mtl"), ("usemtl drawn", "usemtl other")],
+    ("old", "new"), [("vt 1 1", "vt 1 x"), ("5/3", "5/9"), ("sheet.mtl", "none.mtl"), ("usemtl drawn", "usemtl other")]
 )
 def test_texture_coordinates_that_are_damaged_leave_the_shape(folder: Path, old: str, new: str) -> None:
     (folder / "sheet.obj").write_text(SHEET.replace(old, new))

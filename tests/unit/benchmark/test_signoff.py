@@ -17,11 +17,7 @@ from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.tasks import task
-from meshforge.signoff import (
-    HullPlace,
-    ReviewChoice,
-    ReviewQuestion,
-)
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.review import JUDGE_CHOICES
 
 GROUP = 3

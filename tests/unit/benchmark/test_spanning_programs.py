@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from benchmark.assets import samples
 from benchmark.spanning.family import choose_known
-from benchmark.spanning.programs import (
-    open_bench,
-)
+from benchmark.spanning.programs import open_bench
 from benchmark.study.client import TaskClient
 from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand

@@ -117,11 +117,7 @@ def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp
     )
     scene.collider("floor", brick)
     asset = asset_of(scene, tmp_path)
-    assert {geom.name: geom.body for geom in asset.geoms} == {
-        "body/floor": "body",
-        "jar/wall": "jar",
-        "lid/lid": "lid",
-    }
+    assert {geom.name: geom.body for geom in asset.geoms} == {"body/floor": "body", "jar/wall": "jar", "lid/lid": "lid"}
     poses = asset.body_poses
     assert list(poses) == ["body", "jar", "lid"]
     assert poses["jar"].translation.tolist() == [5, 0, 0] and np.allclose(poses["jar"].rotation, np.eye(3))
@@ -277,8 +273,7 @@ def test_bodies_of_omi_are_told_by_motion_or_by_type(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("draft", "standard"),
-    [("OMI_collider", "OMI_physics_shape"), ("KHR_collision_shapes", "KHR_implicit_shapes")],
+    ("draft", "standard"), [("OMI_collider", "OMI_physics_shape"), ("KHR_collision_shapes", "KHR_implicit_shapes")]
 )
 def test_drafts_of_the_extensions_are_refused_with_what_they_are_called_now(
     tmp_path: Path, draft: str, standard: str

@@ -65,15 +65,9 @@ PLACED = {
         '<default class="d"><geom pos="2 0 0"/></default></default></default>',
     ),
     "mesh": ('<geom type="mesh" mesh="m" pos="1 2 3" euler="10 20 30"/><geom type="mesh" mesh="m"/>', MESH),
-    "fitted primitives": (
-        '<geom type="box" mesh="m" pos="1 0 0"/><geom type="capsule" mesh="m" fitscale=".5"/>',
-        MESH,
-    ),
+    "fitted primitives": ('<geom type="box" mesh="m" pos="1 0 0"/><geom type="capsule" mesh="m" fitscale=".5"/>', MESH),
     "fitted to boxes": ('<geom type="box" mesh="m" euler="0 0 20"/>', '<compiler fitaabb="true"/>' + MESH),
-    "scaled by the default": (
-        '<geom type="mesh" mesh="m"/>',
-        '<default><mesh scale="2 2 .5"/></default>' + MESH,
-    ),
+    "scaled by the default": ('<geom type="mesh" mesh="m"/>', '<default><mesh scale="2 2 .5"/></default>' + MESH),
     "built in": (
         '<geom type="mesh" mesh="w"/><geom type="mesh" mesh="t" pos="3 0 0"/>',
         '<asset><mesh name="w" builtin="wedge" params="10 10 90 45 0.5"/>'

@@ -241,11 +241,7 @@ def test_a_made_mesh_is_an_asset_of_the_main_file_beside_the_mesh_it_replaces(tm
     asset = read(put(tmp_path / "in", dict(PARTS)))
     path = checked(tmp_path / "out", asset, ["b/g"], hull(asset, "b/g", HULL))
     added = [line for line in changed_lines(asset.path, path) if "inertial" not in line]
-    assert added == [
-        "+  <asset>\n",
-        '+    <mesh name="main--b_g_1" file="meshes/main--b_g_1.obj"/>\n',
-        "+  </asset>\n",
-    ]
+    assert added == ["+  <asset>\n", '+    <mesh name="main--b_g_1" file="meshes/main--b_g_1.obj"/>\n', "+  </asset>\n"]
     assert (tmp_path / "out/meshes/main--b_g_1.obj").is_file()
     _, put_in = changed_lines(tmp_path / "in/parts/body.xml", tmp_path / "out/parts/body.xml")
     assert put_in == '+  <geom name="g~1" type="mesh" mesh="main--b_g_1"/>\n'

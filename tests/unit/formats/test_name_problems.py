@@ -113,8 +113,7 @@ MARKS: tuple[EngineName, ...] = ("unreal", "godot", "unity")
 
 
 @pytest.mark.parametrize(
-    ("names", "marks"),
-    [(("Gate", "UCX_Gate_00"), "unreal"), (("Gate", "Gate-convcolonly"), "godot")],
+    ("names", "marks"), [(("Gate", "UCX_Gate_00"), "unreal"), (("Gate", "Gate-convcolonly"), "godot")]
 )
 def test_marks_of_another_engine_are_an_error(tmp_path: Path, names: tuple[str, str], marks: str) -> None:
     mesh = load(write_nodes(tmp_path / "gate.glb", dict.fromkeys(names, box())))
