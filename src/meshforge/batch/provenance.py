@@ -13,7 +13,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
 from meshforge import formats, language
 from meshforge.batch.discovery import STATE
@@ -29,14 +29,14 @@ _LOOKS = (".mtl", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".we
 class OutputInputs(BaseModel):
     """Digests of all that decides what an output is; asset: of each file, by its path relative to the common folder."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, populate_by_name=True)
 
     asset: dict[str, str]
     preparation: str | None = None
     labels: str | None
     program: str
     templates: dict[str, str]
-    manual_edits: str | None = None
+    manual_edits: str | None = Field(validation_alias=AliasChoices("manual_edits", "corrections"))  # as it was called
     selections: str | None = None
     settings: str
     software: str

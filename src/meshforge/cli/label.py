@@ -41,6 +41,7 @@ _ONLY_FOR = {
     "model": ("vlm",),
     "base_url": ("vlm",),
     "every_hull": ("vlm",),
+    "mode": ("vlm",),
     "max_cost": ("vlm",),
     "like": ("like",),
     "words": ("like",),
@@ -107,6 +108,7 @@ class LabelArguments:
             "--every-hull", help="Let --with vlm ask about every hull, not a few whose labels are propagated."
         ),
     ] = None
+    mode: Annotated[str | None, typer.Option("--mode", hidden=True)] = None
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
@@ -166,7 +168,7 @@ class LabelArguments:
         return labeler
 
     def _read_vlm_settings(self, project: Project) -> VlmSettings:
-        names = ("model", "base_url", "every_hull", "max_cost")
+        names = ("model", "base_url", "every_hull", "mode", "max_cost")
         given = {name: value for name in names if (value := getattr(self, name)) is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)

@@ -7,7 +7,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
-from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapter, ValidationError, model_serializer
+from pydantic import (
+    AliasChoices,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    TypeAdapter,
+    ValidationError,
+    model_serializer,
+)
 
 from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
@@ -44,13 +52,13 @@ NO_ORIGIN = Origin()
 
 
 class _Line(JsonFile):
-    """One event. by, question, origin: see `Origin`."""
+    """One event. by, question, origin: see `Origin`; origin is called said in files of earlier versions."""
 
     model_config = ConfigDict(populate_by_name=True)
 
     by: str | None = None
     question: str | None = None
-    origin: QuestionAndReply | None = None
+    origin: QuestionAndReply | None = Field(default=None, validation_alias=AliasChoices("origin", "said"))
 
     @model_serializer(mode="wrap")
     def _leave_out_defaults(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:

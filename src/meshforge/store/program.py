@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AliasChoices, ConfigDict, Field
 
 from meshforge import language, synthesis
 from meshforge.batch import ManualEdit, action_text, read_template
@@ -51,8 +51,10 @@ def _check_name(name: str) -> None:
 class ProgramRecord(JsonFile):
     """What a program was learned from, and the outcome of learning; question: the id of the one that stayed open."""
 
+    model_config = ConfigDict(populate_by_name=True)
+
     program: str
-    inputs_digest: str = ""
+    inputs_digest: str = Field(validation_alias=AliasChoices("inputs_digest", "lesson"))
     status: str = "found"
     question: str | None = None
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from meshforge import batch, formats, language
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
@@ -57,6 +57,13 @@ class VlmSettings(BaseModel):
     retries: Annotated[int, Field(ge=0, le=20)] = 5
     extra: Mapping[str, Any] = {}
 
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_mode(cls, given: Any) -> Any:
+        if isinstance(given, dict) and "mode" in given:
+            raise ValueError("there is no mode now: every_hull = true (--every-hull) asks about all, else exemplars")
+        return given
+
 
 class Thresholds(BaseModel):
     """epsilon and delta; None takes the language's own."""
@@ -73,8 +80,8 @@ class Settings(BaseModel):
     assets: files, folders and globs, relative to the project; base: the folder that ids count from.
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
-    urdf_capsules: whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules
-    may use.
+    left_out, removed: ids of assets that are not of the family, as earlier versions noted them here; urdf_capsules:
+    whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules may use.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -87,6 +94,8 @@ class Settings(BaseModel):
     thresholds: Thresholds = Thresholds()
     vlm: VlmSettings = VlmSettings()
     names: dict[str, str] = {}
+    left_out: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
     urdf_capsules: bool = False
     extractors: tuple[str, ...] = ()
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
-from pydantic import Field
+from pydantic import AliasChoices, Field
 
 from meshforge import signoff
 from meshforge.batch import OutputInputs
@@ -22,11 +22,11 @@ class SignOffBasis(OutputInputs):
     """Digests of all that a sign-off rests on: of all that decides the edit, where `settings` are those of the project
     that decide labels and program.
 
-    answers: of what people showed and answered; output: of the files that were written, None where they are not there
-    as they were.
+    answers: of what people showed and answered (`said` in files of earlier versions), None where it was not kept;
+    output: of the files that were written, None where they are not there as they were.
     """
 
-    answers: str = ""
+    answers: str | None = Field(default=None, validation_alias=AliasChoices("answers", "said"))
     output: str | None = None
 
     @staticmethod
@@ -36,6 +36,8 @@ class SignOffBasis(OutputInputs):
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
         """Return what differs between the two, in words."""
+        if isinstance(other, SignOffBasis) and other.answers is None:
+            return ("how sign-offs are kept",)
         return tuple(ANSWERS if one == "answers" else one for one in super().changes(other))
 
 

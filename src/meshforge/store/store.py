@@ -118,7 +118,8 @@ class Store:
 
     def exclusions(self) -> Mapping[str, ExclusionReason]:
         """Return why assets are excluded, by id: from the family, or as not solved."""
-        return _read_exclusions(self.layout, file_state(self.layout.events))
+        layout = self.layout
+        return _read_exclusions(self.folder, file_state(layout.settings), file_state(layout.events))
 
     def exclude(self, assets: Collection[str], reason: ExclusionReason | None) -> None:
         """Exclude assets, or include them again by None; their files stay, and what is kept for them. Raises
@@ -127,7 +128,17 @@ class Store:
             self.path(asset)
         if reason == NOT_OF_FAMILY:
             self._check_rest(assets)
-        self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
+        with self.lock():
+            self._note_exclusions()
+            self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
+
+    def _note_exclusions(self) -> None:
+        """Note as events, under the lock that the caller holds, what earlier versions noted in the settings."""
+        settings = self.settings
+        if before := dict.fromkeys((*settings.left_out, *settings.removed), NOT_OF_FAMILY):
+            self.add_events(*(ExclusionEvent(asset=asset, reason=why) for asset, why in before.items()))
+            after = settings_file.edit_settings(self.folder, {"left_out": None, "removed": None})
+            write_atomically(self.layout.settings, after)
 
     def _check_rest(self, away: Collection[str]) -> None:
         if self.found.ids.keys() <= set(away):
@@ -181,6 +192,7 @@ class Store:
             self.path(asset)
         self._check_rest(assets)
         with self.lock():
+            self._note_exclusions()
             feedback, meant = self.feedback(), settings_file.drop_assets(self.folder, self.every, assets)
             for asset in assets:
                 batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
@@ -214,7 +226,11 @@ class Store:
         write_all_atomically({self.layout.classes(asset): text for asset, text in texts.items()})
 
     def write_labels(
-        self, asset: str, hulls: Mapping[str, str], labels: Mapping[str, symbolic.Label], vocabulary: Sequence[str]
+        self,
+        asset: str,
+        hulls: Mapping[str, str],
+        labels: Mapping[str, symbolic.Label],
+        vocabulary: Sequence[str],
     ) -> None:
         """Write the labels of an asset, under the lock that the caller holds; without any label its file is removed.
 
@@ -374,6 +390,11 @@ class Store:
 
 
 @lru_cache(maxsize=4)
-def _read_exclusions(layout: Layout, state: FileState | None) -> Mapping[str, ExclusionReason]:
-    """Read them from events in this state; they are asked for several times for every asset."""
-    return MappingProxyType({a: one.reason for a, one in load_feedback(layout).exclusions.items() if one.reason})
+def _read_exclusions(
+    folder: Path, settings: FileState | None, events: FileState | None
+) -> Mapping[str, ExclusionReason]:
+    """Read them from files in these states; they are asked for several times for every asset."""
+    kept = settings_file.read_settings(folder)
+    feedback = load_feedback(Layout(folder)).exclusions.items()
+    before = dict.fromkeys((*kept.left_out, *kept.removed), NOT_OF_FAMILY)
+    return MappingProxyType(before | {asset: one.reason for asset, one in feedback if one.reason})

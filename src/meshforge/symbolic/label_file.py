@@ -170,6 +170,8 @@ def _parse_label(name: str, value: Any, path: Path) -> Label:
     if isinstance(confidence, bool) or not isinstance(confidence, int | float) or not 0.0 <= confidence <= 1.0:
         problem = f"the confidence of hull {name!r} is {confidence!r}, not a number from 0 to 1"
         raise AssetError(problem, where=str(path))
+    if source == "consensus":  # in projects of before
+        source = "propagated"
     if source not in LABEL_SOURCES:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {source!r}", where=str(path), remedy=remedy)

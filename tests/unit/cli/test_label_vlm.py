@@ -130,6 +130,7 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
         (("--labels", "x"), "--labels is for --with file"),
+        (("--mode", "exact"), "there is no mode now: every_hull = true (--every-hull) asks about all"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

@@ -378,6 +378,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('modell = "x"', "there is no such field as vlm.modell"),
+        ('mode = "cheap"', "the field vlm: there is no mode now: every_hull = true"),
         ("concurrency = 0", "the field vlm.concurrency"),
         ("input_price = -1", "the field vlm.input_price"),
         ("size = 3", "the field vlm.size"),

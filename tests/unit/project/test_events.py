@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.store import SnoozeEvent
+from meshforge.store.events import parse_events
+from meshforge.store.program import ProgramRecord
+from meshforge.store.sign_off import SignOffBasis
 from meshforge.synthesis import Answer
 from tests.unit.project.tables import FIRST, LEGS, THIRD, applied, learned
 
@@ -101,3 +105,26 @@ def test_what_is_taken_back_is_as_if_it_had_never_been_said(tmp_path: Path) -> N
     said = project.feedback()
     assert not said.verdicts and not said.snoozed
     assert len(project.layout.events.read_text().splitlines()) == 4, "but all of it stays in the file"
+
+
+def test_keys_of_earlier_versions_are_read() -> None:
+    line = {
+        "event": "verdict",
+        "asset": FIRST,
+        "verdict": "accepted",
+        "said": {"asked": {"id": "q"}, "reply": {"id": "q"}},
+    }
+    (event,) = parse_events(json.dumps(line) + "\n", "events.jsonl")
+    assert event.origin and event.origin.asked == {"id": "q"}
+    assert "said" not in event.model_dump(mode="json") and "origin" in event.model_dump(mode="json")
+    assert ProgramRecord.model_validate({"program": "p", "lesson": "digest"}).inputs_digest == "digest"
+    basis: dict[str, Any] = {
+        "asset": {},
+        "labels": None,
+        "program": "p",
+        "templates": {},
+        "settings": "s",
+        "software": "",
+    }
+    earlier = SignOffBasis.model_validate({**basis, "corrections": "edits", "said": "answers"})
+    assert (earlier.manual_edits, earlier.answers) == ("edits", "answers")

@@ -14,6 +14,7 @@ from meshforge.geometry import FinePiece, Floats, Ints, PieceEngine, decompose_f
 from meshforge.label_model import SpanPosterior
 from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, RebuildSettings
+from meshforge.project.preparation_plan import find_new_assets
 from meshforge.symbolic import Label, LabelSource
 from tests.unit.project.stools import PARTS, boxes, create_stools, write_stool
 
@@ -175,3 +176,26 @@ def test_a_label_of_a_person_or_a_file_speaks_against_it_and_a_name_does_not(
 def test_nothing_is_said_where_a_person_labelled_all_hulls(project: Project, engines: list[str]) -> None:
     project.set_labels("c.urdf", dict.fromkeys(project.mesh("c.urdf").index, "leg"))
     assert [(one.made, one.notes, one.problems) for one in rebuild(project, sure=0.01)] == [((), (), ())] * 3
+
+
+def test_a_project_with_splits_of_an_earlier_version_is_read_and_they_are_taken_back(project: Project) -> None:
+    """Its preparation divides hulls, its plan says that they were split, and a hull was said to be one part."""
+    before = project.mesh("c.urdf")
+    rebuild(project, "c.urdf")
+    after = project.mesh("c.urdf")
+    path = project.layout.preparation("c.urdf") / "preparation.json"
+    kept = json.loads(path.read_text())
+    kept["steps"][0]["do"] = "divide"
+    kept["steps"][0]["settings"] = {"sure": 0.9, "pieces": "coacd", "chances": {"base/h0": 0.95}}
+    kept["steps"][0]["replaced"][1]["with_body"] = True
+    path.write_text(json.dumps(kept))
+    plan = {"split": ["a.urdf", "b.urdf"], "sure": 0.7, "rebuild": False, "pieces": "coacd", "only": []}
+    project.layout.preparation_plan.write_text(json.dumps(plan))
+    (project.folder / "single_parts.json").write_text('{"assets": {"c.urdf": {"base/h1": "00"}}}')
+    opened = Project.open(project.folder)
+    assert [str(hull) for hull in opened.mesh("c.urdf").hulls] == [str(hull) for hull in after.hulls]
+    assert opened.status().assets[2].prepared == ("4 hulls divided into 5 hulls",)
+    plans, unclear = find_new_assets(opened)
+    assert unclear is None and plans["c.urdf"].rebuild == RebuildSettings(0.7)
+    assert opened.unprepare("c.urdf").undone == ("4 hulls divided into 5 hulls",)
+    assert list(opened.mesh("c.urdf").index) == list(before.index)

@@ -318,3 +318,14 @@ def test_an_output_that_is_not_as_it_was_written_is_signed_off_by_no_review(proj
     assert find_voids(project) == {THIRD: ("output",)}
     list(project.apply(execution=IN_PROCESS))
     assert find_voids(project) == {}
+
+
+def test_a_sign_off_of_an_earlier_version_is_void_until_a_review(project: Project) -> None:
+    path = project.layout.sign_offs
+    rows = [json.loads(line) for line in path.read_text().splitlines()]
+    for one in rows:
+        del one["rests_on"]["answers"], one["rests_on"]["output"]
+    path.write_text("".join(f"{json.dumps(one)}\n" for one in rows))
+    assert find_voids(project) == dict.fromkeys((FIRST, SECOND, THIRD), ("how sign-offs are kept",))
+    project.review(0.5, execution=IN_PROCESS)
+    assert find_voids(project) == {}

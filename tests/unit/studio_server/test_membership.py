@@ -83,6 +83,19 @@ def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: ExcludeAssets | 
     assert _kept(project) == before
 
 
+def test_assets_that_the_settings_of_before_leave_out_are_excluded_and_can_come_back(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    text = toml.read_text() + "\n# mine\n[thresholds]\ncontact = 0.01\n"
+    toml.write_text(text.replace("\n# mine", f'left_out = ["{FIRST}"]\nremoved = ["{SECOND}"]\n\n# mine'))
+    before, history = _kept(project), History.open(project.folder)
+    assert _now(project) == (THIRD,) and project.exclusions() == dict.fromkeys([FIRST, SECOND], NOT_OF_FAMILY)
+    assert _kept(project) == before, "reading changes nothing"
+    make_edit(history, project, ExcludeAssets(ids=(FIRST,), reason=None))
+    assert _now(project) == (FIRST, THIRD) and toml.read_text() == text
+    assert Project.open(project.folder).add_assets([project.path(SECOND)]).assets() == (FIRST, SECOND, THIRD)
+
+
 def test_an_asset_that_is_added_lands_in_the_folder_of_the_project(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     staged, sources = tmp_path / "staged", tree(tmp_path / "assets")

@@ -23,7 +23,7 @@ _GRID = 1.4142135e-7
 """[m] Coordinates are compared in these steps; no round number, so that rounding errors tip no round coordinates."""
 
 
-_DONE = {"decompose": "decomposed", "cut": "cut", "rebuild": "rebuilt"}
+_DONE = {"decompose": "decomposed", "cut": "cut", "rebuild": "rebuilt", "split": "split", "divide": "divided"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,11 +45,12 @@ class Replacement:
 class PreparationStep:
     """One thing done to an asset.
 
-    do: `decompose` by an engine, `cut` a hull along a plane, or `rebuild` bodies of which hulls span parts.
+    do: `decompose` by an engine, `cut` a hull along a plane, or `rebuild` bodies of which hulls span parts; earlier
+    versions did `split` and `divide` to hulls, which are read and taken back like these.
     settings: all that it was done with; software: the versions of what did it.
     """
 
-    do: Literal["decompose", "cut", "rebuild"]
+    do: Literal["decompose", "cut", "rebuild", "split", "divide"]
     settings: dict[str, Any]
     software: dict[str, str]
     replaced: tuple[Replacement, ...]
@@ -57,7 +58,7 @@ class PreparationStep:
     def __str__(self) -> str:
         """`link/geom0 decomposed into 12 hulls by coacd`."""
         names = [entry.what for entry in self.replaced]
-        kind = "hulls" if self.do == "rebuild" else "pieces"
+        kind = "hulls" if self.do in ("rebuild", "divide") else "pieces"
         what = names[0] if len(names) == 1 else f"{len(names)} {kind}"
         by = f" by {self.settings['method']}" if "method" in self.settings else ""
         return f"{what} {_DONE[self.do]} into {pluralize(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"

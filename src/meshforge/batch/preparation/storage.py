@@ -120,6 +120,7 @@ def list_preparation_writes(folder: Path, preparation: Preparation) -> list[tupl
 def _read_record(path: Path) -> tuple[PreparationStep, ...]:
     """The steps in a record. Raises OSError, and AssetError where it is damaged."""
     content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+    content = content.replace(b'"told": ', b'"remark": ')  # as earlier versions called it
     from pydantic import TypeAdapter, ValidationError  # lazy: 0.1 s, only preparations need it
 
     try:

@@ -70,7 +70,7 @@ def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) ->
         ("[]", "expected an object {...}, found []"),
         (
             '{"steps": [{"do": "guess"}]}',
-            "the field steps[0].do: expected 'decompose', 'cut' or 'rebuild', found",
+            "the field steps[0].do: expected 'decompose', 'cut', 'rebuild', 'split' or 'divide', found",
         ),
         ('{"steps": 3}', "the field steps: expected a list [...], found 3"),
         ('{"hulls": []}', "the field steps is missing"),
