@@ -13,6 +13,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
+from meshforge.label_model.similar import estimate_seconds
 from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import LABEL_SOURCES, Label, LabelSource, SymbolicMesh
@@ -147,12 +148,16 @@ class FamilyPosterior:
             for one, other in np.argwhere(np.triu(is_alike, 1)).tolist()
         )
 
-    def next_to_label(self, count: int = 1) -> list[int]:
-        """Return the meshes to label next, the best first; none whose hulls all have given labels."""
+    def next_to_label(self, count: int = 1, below: int | None = None) -> list[int]:
+        """Return the meshes to label next, the best first: those that tell most for each second that labelling takes.
+
+        None whose hulls all have given labels, and none of a number of `below` or more.
+        """
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen
-        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]), _MESHES)
+        numbers = np.unique(table.owner[~seen.given])
+        open_meshes = pick_evenly(numbers if below is None else numbers[numbers < below], _MESHES)
         rows = table.rows[:, SHAPE_COLUMNS]
         compared = pick_evenly(np.arange(len(rows)), _HULLS)
         some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
@@ -166,10 +171,12 @@ class FamilyPosterior:
             return found
 
         covered = alike(pick_evenly(np.flatnonzero(seen.given), _HULLS))
-        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes.tolist()])
+        spans = [table.spans[mesh] for mesh in open_meshes.tolist()]
+        stands = np.stack([alike(span) for span in spans])
+        seconds = [estimate_seconds(table, span.start + np.flatnonzero(~seen.given[span])) for span in spans]
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
-            gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1)
+            gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1) / seconds
             gains[found] = -1.0
             found.append(int(first_greatest(gains)))
             covered = np.maximum(covered, stands[found[-1]])

@@ -42,8 +42,7 @@ class FamilyComparison:
     @cached_property
     def next(self) -> str | None:
         """The asset that would help most if it were labelled; None: all are."""
-        own = range(len(self.assets))
-        return next((self.assets[place] for place in self.found.next_to_label() if place in own), None)
+        return next((self.assets[place] for place in self.found.next_to_label(below=len(self.assets))), None)
 
     def share_out(self, labels: Sequence[Label | None]) -> Iterator[tuple[str, dict[str, Label]]]:
         """Yield each asset that is not lost, with its share of labels of all hulls."""

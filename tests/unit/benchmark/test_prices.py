@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from benchmark.study import keystrokes
+from meshforge.label_model import similar
 from meshforge.language import Delete
 from meshforge.signoff import question as prices
 from meshforge.synthesis import Demonstration, Step
@@ -14,6 +15,9 @@ from tests.synthesis_boxes import table
 def test_prices_of_questions_are_those_of_the_keystroke_model() -> None:
     assert pytest.approx(keystrokes.ANSWER) == prices.CANDIDATE
     assert pytest.approx(keystrokes.CONFIRMATION) == prices.YES_OR_NO
+    assert (similar.THINK, similar.CLICK, similar.KEY, similar.LOOK) == pytest.approx(
+        (keystrokes.THINK, keystrokes.CLICK, keystrokes.KEY, keystrokes.GROUP_HULL)
+    )
     assert prices.price_group(7, 2) == pytest.approx(keystrokes.price_group(7, 2))
 
 
