@@ -21,9 +21,9 @@ _BY_HAND = 3
 _MIB = 1 << 20
 _NOTES = (
     f"Assets of {_HULLS} hulls each, the first ones of {_MODELS} meshes of the benchmark's category *{_KIND}*, each at "
-    f"another size for every 50 assets. {_BY_HAND} assets are labelled by hand, and `meshforge label PROJECT` run with two "
-    "workers: it reads and describes all. Then one more is labelled by hand, and it is run again. Memory: the largest "
-    "resident size of any process.",
+    f"another size for every 50 assets. {_BY_HAND} assets are labelled by hand, and `meshforge label PROJECT` run with "
+    "two workers: it reads and describes all. Then one more is labelled by hand, and it is run again. Memory: the "
+    "largest resident size.",
 )
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
+from importlib.resources import files
+from typing import Literal
 
 import numpy as np
 
@@ -23,6 +26,7 @@ _NEAR = 0.35  # of the median distance of hulls, within which they stand for eac
 _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which nothing is known counts so much and one
 
 _DIGITS = 3
+CONFIDENCE_FILE = "confidence.json"
 MOST_LIKELY = 0.89
 """How sure a label is at most that follows from hulls of another family alone."""
 _FREE_ODDS = 1.5  # odds of what was said from which on another label must be surer [nats]
@@ -30,6 +34,22 @@ _ALIKE = 0.6  # probability of each of two labels on hulls called the other, tog
 _BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
 _TINY = 1e-12
 _REMEMBERED = 2000  # meshes whose other sides are not described again
+
+
+def to_confidence(chances: Floats, by: Literal["family", "like"] = "family") -> Floats:
+    """Return how often labels of such chances are right in families that the model was not fitted on (logistic
+    regression on the log odds, Platt 1999): beside labelled assets of the same family, or of another one."""
+    level, slope = _read_confidence()[by]
+    bounded = np.clip(chances, _TINY, 1 - _TINY)
+    found: Floats = 1 / (1 + np.exp(-level - slope * np.log(bounded / (1 - bounded))))
+    return found
+
+
+@cache
+def _read_confidence() -> dict[str, tuple[float, float]]:
+    text = files("meshforge.label_model").joinpath(CONFIDENCE_FILE).read_text("utf-8")
+    found: dict[str, tuple[float, float]] = json.loads(text)["weights"]
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,11 +93,11 @@ class FamilyPosterior:
         return self.chances[self.table.spans.get(mesh, slice(0, 0))]
 
     def labels(self, mesh: int, source: LabelSource = "propagated") -> list[Label | None]:
-        """Return the likeliest label of each hull of a mesh, with its chance; None where no label is known at all."""
+        """Return the likeliest label of each hull of a mesh, with its confidence; None where no label is known."""
         rows = self.chances_of(mesh)
         if not self.seen.labels:
             return [None] * len(rows)
-        found = zip(first_greatest(rows).tolist(), np.minimum(rows, self._most), strict=True)
+        found = zip(first_greatest(rows).tolist(), np.minimum(to_confidence(rows), self._most), strict=True)
         return [Label(self.seen.labels[place], round(float(row[place]), _DIGITS), source) for place, row in found]
 
     @cached_property
@@ -133,7 +153,8 @@ class FamilyPosterior:
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
             return given or observed
-        return Label(self.seen.labels[best], round(min(chance, float(self._most[best])), _DIGITS), "propagated", given)
+        sure = min(float(to_confidence(self.chances[hull, best])), float(self._most[best]))
+        return Label(self.seen.labels[best], round(sure, _DIGITS), "propagated", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
         """Return pairs of labels on hulls that look alike, of which hardly any mesh has both: two names of one part?"""

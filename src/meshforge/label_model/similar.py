@@ -89,8 +89,8 @@ def _least(table: FamilyTable, hulls: Ints, to: Ints) -> Floats:
 
 
 def estimate_seconds(table: FamilyTable, hulls: Ints) -> float:
-    """Return how long a person takes to open a mesh and label some of its hulls [s]: a click and two keys for each group
-    that look alike, the one that selects them all and that of the label, and a look at each hull."""
+    """Return how long a person takes to open a mesh and label some of its hulls [s]: for each group that look alike a
+    click, the key that selects them all and that of the label; and a look at each hull."""
     from scipy.sparse.csgraph import connected_components  # lazy: 0.5 s, half of all imports
     from scipy.spatial.distance import cdist
 
