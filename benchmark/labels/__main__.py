@@ -41,7 +41,7 @@ def main() -> None:
         parser.error("consensus: say in which folder the families are")
 
 
-def _write(file: str, command: str, weights: Any) -> None:
+def _write(file: str, command: str, weights: list[Any]) -> None:
     data = {"about": _ABOUT.format(command), "weights": weights}
     write_atomically(Path(consensus.__file__).parent / file, json.dumps(data, indent=1) + "\n")
 

@@ -19,7 +19,17 @@ from benchmark.real.family import families as real_families
 from benchmark.real.samples import choose_samples
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats
-from meshforge.label_model import FamilyModel, FamilyPosterior, to_confidence
+from meshforge.label_model import (
+    FamilyModel,
+    FamilyPosterior,
+    FamilyTable,
+    MeshDescriber,
+    Observations,
+    correct_upright,
+    find_doubtful_sides,
+    to_confidence,
+)
+from meshforge.label_model.describe import describe_mesh
 from meshforge.labels.label_by_like import WIDER, find_nearest, measure_bound
 from meshforge.labels.like_reference import find_sample
 from meshforge.labels.summary import SURE
@@ -47,11 +57,10 @@ class Outcome:
     worth: float = 1.0
 
 
-def fit_confidence(tell: Tell) -> dict[str, list[float]]:
+def fit_confidence(tell: Tell) -> list[list[float]]:
     """The level and slope of the logit of confidence over that of chance, by what is labelled: assets of the family, or
     of another one."""
-    family_cases, like_cases = [*draw_families(tell)], [*draw_references(tell)]
-    return {"family": _fit(family_cases), "like": _fit(like_cases)}
+    return [_fit([*draw_families(tell)]), _fit([*draw_references(tell)])]
 
 
 def _fit(cases: Sequence[Outcome]) -> list[float]:
@@ -122,9 +131,13 @@ def label_like(own: Kind, other: Kind) -> Outcome | None:
     """What is found in a family beside another one, all labelled; None where it is refused as of another kind."""
     labels: list[Label | None] = [None for mesh, _ in own for _ in mesh.hulls]
     labels += [Label(hull.label, 1.0, "file") if hull.label else None for mesh, _ in other for hull in mesh.hulls]
-    found = FamilyModel([mesh for mesh, _ in (*own, *other)]).infer(labels)
-    table, first = found.table, int(np.searchsorted(found.table.owner, len(own)))
-    taught = first + np.flatnonzero(found.seen.known[first:])
+    described = [describe_mesh(mesh) for mesh, _ in (*own, *other)]
+    table, seen = FamilyTable.of([(one.rows, one.touching) for one in described]), Observations.of(labels)
+    sides = find_doubtful_sides(table, seen, lambda k: described[k].sides[: None if k < len(own) else 0])
+    closer = {k: [MeshDescriber(own[k][0]).describe_side(side) for side in some] for k, some in sides if some}
+    found = FamilyPosterior.of(correct_upright(table, seen, closer), seen)
+    table, first = found.table, int(np.searchsorted(table.owner, len(own)))
+    taught = first + np.flatnonzero(seen.known[first:])
     rows = table.rows[taught] * table.metric
     apart = find_nearest(table.rows[:first], rows, table.metric)[1]
     if np.median(apart) * WIDER > measure_bound(rows, table.owner[taught]):

@@ -13,6 +13,6 @@ __getattr__, __all__ = export_lazily(
         "sides": "correct_upright find_doubtful_sides",
         "similar": "choose_exemplars find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
-        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
+        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of read_weights reference_label",
     },
 )

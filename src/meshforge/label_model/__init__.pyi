@@ -25,5 +25,5 @@ from meshforge.label_model.table import FamilyTable as FamilyTable
 from meshforge.label_model.table import Observations as Observations
 from meshforge.label_model.table import evidence_beside_rebuilt as evidence_beside_rebuilt
 from meshforge.label_model.table import evidence_of as evidence_of
-from meshforge.label_model.table import metric_weights as metric_weights
+from meshforge.label_model.table import read_weights as read_weights
 from meshforge.label_model.table import reference_label as reference_label

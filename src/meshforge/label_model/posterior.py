@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
-from importlib.resources import files
 from typing import Literal
 
 import numpy as np
@@ -17,7 +15,7 @@ from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
 from meshforge.label_model.similar import estimate_seconds
-from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of
+from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of, read_weights
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import LABEL_SOURCES, Label, LabelSource, SymbolicMesh
 
@@ -39,16 +37,9 @@ _REMEMBERED = 2000  # meshes whose other sides are not described again
 def to_confidence(chances: Floats, by: Literal["family", "like"] = "family") -> Floats:
     """Return how often labels of such chances are right in families that the model was not fitted on (logistic
     regression on the log odds, Platt 1999): beside labelled assets of the same family, or of another one."""
-    level, slope = _read_confidence()[by]
+    level, slope = read_weights(CONFIDENCE_FILE)[int(by == "like")]
     bounded = np.clip(chances, _TINY, 1 - _TINY)
     found: Floats = 1 / (1 + np.exp(-level - slope * np.log(bounded / (1 - bounded))))
-    return found
-
-
-@cache
-def _read_confidence() -> dict[str, tuple[float, float]]:
-    text = files("meshforge.label_model").joinpath(CONFIDENCE_FILE).read_text("utf-8")
-    found: dict[str, tuple[float, float]] = json.loads(text)["weights"]
     return found
 
 
@@ -184,7 +175,7 @@ class FamilyPosterior:
         some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
-        near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
+        near = max(float(np.median(cdist(some, some), overwrite_input=True)) * _NEAR, 1e-9)
 
         def alike(hulls: slice | Ints) -> Floats:
             """How much the best of some hulls is like each that is compared."""

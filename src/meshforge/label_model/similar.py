@@ -92,7 +92,7 @@ def estimate_seconds(table: FamilyTable, hulls: Ints) -> float:
     """Return how long a person takes to open a mesh and label some of its hulls [s]: for each group that look alike a
     click, the key that selects them all and that of the label; and a look at each hull."""
     from scipy.sparse.csgraph import connected_components  # lazy: 0.5 s, half of all imports
-    from scipy.spatial.distance import cdist
+    from scipy.spatial.distance import cdist  # lazy: as above
 
     rows = table.rows[hulls] * table.metric
     groups, _ = connected_components(cdist(rows, rows, "cityblock") <= OWN_STEPS[0], directed=False)

@@ -28,10 +28,12 @@ _MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
 
 
 @cache
-def metric_weights() -> Floats:
-    """Return the weights (columns,) of the distance between rows: the weighted sum of their differences."""
-    read = json.loads(files("meshforge.label_model").joinpath(METRIC_FILE).read_text("utf-8"))
-    found = np.array(read["weights"], dtype=float)
+def read_weights(file: str) -> Floats:
+    """Return fitted numbers, of which a file here each has some: of METRIC_FILE the weights (columns,) of the distance
+    between rows, the weighted sum of their differences."""
+    found = np.array(
+        json.loads(files("meshforge.label_model").joinpath(file).read_text("utf-8"))["weights"], dtype=float
+    )
     found.flags.writeable = False
     return found
 
@@ -85,7 +87,7 @@ class FamilyTable:
             scale,
             np.repeat(np.arange(len(described)), sizes),
             np.concatenate([np.zeros((0, 2), np.int64), *pairs]),
-            metric_weights() if metric is None else metric,
+            read_weights(METRIC_FILE) if metric is None else metric,
         )
 
     @cached_property
