@@ -7,7 +7,7 @@ import pytest
 
 from meshforge.label_model import FamilyPosterior, FamilyTable, Observations, posterior
 from meshforge.label_model.describe import ROW_WIDTH, SHAPE_COLUMNS
-from meshforge.label_model.similar import CLICK, KEY, LOOK, THINK, estimate_seconds
+from meshforge.label_model.similar import CLICK, KEY, LOOK, ROUND, THINK, estimate_seconds
 from meshforge.label_model.table import ColumnScale
 from meshforge.symbolic import Label
 
@@ -40,7 +40,7 @@ def test_where_all_tell_alike_a_second_the_first_comes() -> None:
 
 
 def test_hulls_whose_label_is_given_cost_nothing() -> None:
-    parts = [[0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 6], *[[0, 6]] * 3]
+    parts = [[0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 6], *[[0, 6]] * 6]
     assert advise(parts, count=1) == [2]
     assert advise(parts, labelled=range(6, 11), count=1) == [1]
 
@@ -50,7 +50,7 @@ def test_an_asset_of_another_family_is_not_advised() -> None:
 
 
 def test_look_alikes_are_labelled_at_once() -> None:
-    table, opening = make_table(FAMILY), THINK + CLICK
+    table, opening = make_table(FAMILY), ROUND + THINK + CLICK
     assert estimate_seconds(table, np.arange(6, 10)) == pytest.approx(opening + CLICK + 2 * KEY + 4 * LOOK)
     assert estimate_seconds(table, np.arange(6)) == pytest.approx(opening + 6 * (CLICK + 2 * KEY + LOOK))
 

@@ -55,8 +55,8 @@ def outcome(category: str, count: int) -> tuple[list[bool], list[float]]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("category", ["cup", "door", "table"])
-def test_three_labelled_meshes_label_the_family(category: str) -> None:
-    right, _ = outcome(category, 3)
+def test_two_labelled_meshes_label_the_family(category: str) -> None:
+    right, _ = outcome(category, 2)
     assert np.mean(right) > 0.9
 
 
