@@ -43,6 +43,7 @@ _COUNTS, _DRAWS, _SEED = (1, 2, 3), 2, 0
 _MIXED = 5  # meshes of each of two categories in a family of mixed kinds
 _CROSSED_WORTH = 0.25  # what a family of mixed kinds counts
 _RIDGE = 1e-3
+Way = Literal["family", "like"]
 Kind = Sequence[tuple[SymbolicMesh, Bools]]
 """The meshes of a family with their true labels, and which of their hulls are of one part."""
 
@@ -185,7 +186,10 @@ def measure(tell: Tell, quick: bool) -> Result:
     tell("confidence: real families")
     own = [one for kind in kinds.values() for one in label_some(kind)]
     beside = [one for name in names if name in bundled for one in [label_like(kinds[name], _of_bundled(name))] if one]
-    ways = (("some of its assets labelled", "family", own), ("like the bundled family", "like", beside))
+    ways: tuple[tuple[str, Way, list[Outcome]], ...] = (
+        ("some of its assets labelled", "family", own),
+        ("like the bundled family", "like", beside),
+    )
     rows = [_row(f"{what}: {how}", some, change) for what, by, some in ways for how, change in _changes(by)]
     after = rows[1]
     goals = (
@@ -202,7 +206,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def _changes(by: Literal["family", "like"]) -> tuple[tuple[str, Callable[[Floats], Floats]], ...]:
+def _changes(by: Way) -> tuple[tuple[str, Callable[[Floats], Floats]], ...]:
     return ("chance", lambda chances: chances), ("confidence", lambda chances: to_confidence(chances, by))
 
 

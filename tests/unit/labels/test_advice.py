@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from meshforge.geometry import Ints
 from meshforge.label_model import FamilyPosterior, FamilyTable, Observations, posterior
 from meshforge.label_model.describe import ROW_WIDTH, SHAPE_COLUMNS
 from meshforge.label_model.similar import CLICK, KEY, LOOK, ROUND, THINK, estimate_seconds
@@ -57,7 +58,11 @@ def test_look_alikes_are_labelled_at_once() -> None:
 
 def test_of_very_many_assets_some_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     priced = list[int]()
+
+    def price(_: FamilyTable, hulls: Ints) -> float:
+        priced.append(len(hulls))
+        return 1.0
+
     monkeypatch.setattr(posterior, "_MESHES", 7)
-    monkeypatch.setattr(posterior, "estimate_seconds", lambda _, hulls: priced.append(len(hulls)) or 1.0)
-    assert len(advise([SMALL] * 40, count=9)) == 7
-    assert len(priced) == 7
+    monkeypatch.setattr(posterior, "estimate_seconds", price)
+    assert len(advise([SMALL] * 40, count=9)) == len(priced) == 7
