@@ -190,7 +190,8 @@ class FamilyContext:
         """Of the nearest hulls of distinct meshes the shares of the labels, and their evidence multiplied [nats]."""
         hulls, apart = self.lookalikes.nearest(informed.usable, _DISTINCT, 1)
         there = np.isfinite(apart)
-        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE), 0.0) * informed.worth[hulls]
+        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE), 0.0)
+        alike *= informed.worth[hulls]
         share = (_sum_votes(alike, chances, hulls) + _PRIOR_SHARE * prior) / (alike.sum(axis=1) + _PRIOR_SHARE)[:, None]
         together = np.zeros_like(chances)
         for place in range(min(_TOGETHER, hulls.shape[1])):

@@ -188,7 +188,8 @@ class FamilyPosterior:
         seconds = [estimate_seconds(table, span.start + np.flatnonzero(~seen.given[span])) for span in spans]
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
-            gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1) / seconds
+            more = stands - covered
+            gains = np.multiply(np.maximum(more, 0.0, out=more), reason, out=more).sum(axis=1) / seconds
             gains[found] = -1.0
             found.append(int(first_greatest(gains)))
             covered = np.maximum(covered, stands[found[-1]])
