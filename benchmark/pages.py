@@ -74,7 +74,7 @@ PAGES = (
     Page(
         "labels",
         "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
-        ("propagation", "transfer", "labellers"),
+        ("propagation", "confidence", "transfer", "labellers", "scale"),
         ("numpy", "scipy"),
         given=("labellers",),
     ),

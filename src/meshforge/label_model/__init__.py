@@ -9,10 +9,10 @@ __getattr__, __all__ = export_lazily(
         "consensus": "EVIDENCE",
         "describe": "MeshDescriber ShapeDescriptor remember_descriptor",
         "odds": "LabelBeliefs LabelOdds is_human",
-        "posterior": "MOST_LIKELY FamilyModel FamilyPosterior model_family",
+        "posterior": "MOST_LIKELY FamilyModel FamilyPosterior model_family to_confidence",
         "sides": "correct_upright find_doubtful_sides",
         "similar": "choose_exemplars find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
-        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
+        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of read_weights reference_label",
     },
 )

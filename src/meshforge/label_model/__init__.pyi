@@ -13,6 +13,7 @@ from meshforge.label_model.posterior import MOST_LIKELY as MOST_LIKELY
 from meshforge.label_model.posterior import FamilyModel as FamilyModel
 from meshforge.label_model.posterior import FamilyPosterior as FamilyPosterior
 from meshforge.label_model.posterior import model_family as model_family
+from meshforge.label_model.posterior import to_confidence as to_confidence
 from meshforge.label_model.sides import correct_upright as correct_upright
 from meshforge.label_model.sides import find_doubtful_sides as find_doubtful_sides
 from meshforge.label_model.similar import choose_exemplars as choose_exemplars
@@ -24,5 +25,5 @@ from meshforge.label_model.table import FamilyTable as FamilyTable
 from meshforge.label_model.table import Observations as Observations
 from meshforge.label_model.table import evidence_beside_rebuilt as evidence_beside_rebuilt
 from meshforge.label_model.table import evidence_of as evidence_of
-from meshforge.label_model.table import metric_weights as metric_weights
+from meshforge.label_model.table import read_weights as read_weights
 from meshforge.label_model.table import reference_label as reference_label

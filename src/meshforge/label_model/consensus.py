@@ -3,17 +3,14 @@ the probabilities of the one before (auto-context, Tu 2008). The weights of each
 the true label on calibration families (`python -m benchmark.labels consensus`). How reliable each source of labels is
 in a family is found together with the labels by expectation maximization (Dawid and Skene 1979)."""
 
-import json
 from dataclasses import replace
-from functools import cache
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
 
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.lookalikes import PER_MESH, Places
-from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations
+from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, read_weights
 from meshforge.symbolic import LABEL_SOURCES
 
 WEIGHTS_FILE = "consensus.json"
@@ -63,15 +60,6 @@ _LEAST_RATE, _MOST_RATE = 0.03, 0.997  # bounds of a reliability
 _COUNTS_FOR_KIND = 2.0  # hulls that the mean of a source counts for in one kind of part of one mesh
 
 
-@cache
-def consensus_weights() -> Floats:
-    """Return the weights (rounds, evidence)."""
-    read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    found = np.array(read["weights"], dtype=float)
-    found.flags.writeable = False
-    return found
-
-
 def infer_chances(
     table: FamilyTable, seen: Observations, weights: Floats | None = None, evidence: Floats | None = None
 ) -> tuple[Floats, Floats]:
@@ -85,11 +73,12 @@ def infer_chances(
     chances = by_others = context.start()
     more = np.where(np.isin(np.arange(context.count), seen.codes), 0.0, _NOBODY_GAVE)
     more = more if evidence is None else more + evidence
-    for row in consensus_weights() if weights is None else weights:
+    for row in read_weights(WEIGHTS_FILE) if weights is None else weights:
         scores = context.collect_evidence(chances)
         scores *= row
         by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
         chances = context.fix_known(softmax(scores.sum(axis=2) + more))
+        del scores
     return chances, by_others
 
 
@@ -164,21 +153,19 @@ class FamilyContext:
         prior = counted.sum(axis=0) + 0.5
         prior /= prior.sum()
         heard = self._mix_twins(chances, informed)
-        nearest = np.log(self._share_nearest(heard, informed, prior))
-        distinct, together = self._share_distinct(heard, informed, prior)
-        own_mesh = np.log(self._share_own(chances, informed, prior))
+        found = np.zeros((*chances.shape, len(EVIDENCE)))  # filled, not stacked: a tenth of a GiB of a large family
+        found[:, :, 4] = np.log(self._share_nearest(heard, informed, prior))
+        distinct, found[:, :, 6] = self._share_distinct(heard, informed, prior)
+        found[:, :, 5], found[:, :, 7] = np.log(distinct), np.log(self._share_own(chances, informed, prior))
+        found[:, :, 8], found[:, :, 9] = np.log(prior), self._hear_neighbors(chances, informed)
         observed = np.maximum(seen.codes, 0)
-        by_others = softmax(nearest + 0.5 * together)[rows, observed]
+        by_others = softmax(found[:, :, 4] + 0.5 * found[:, :, 6])[rows, observed]
         reliability = estimate_reliability(seen, self.free, chances[rows, observed])
-        kinds = np.zeros_like(chances)
-        kinds[self.free, seen.codes[self.free]] = find_wrong_kinds(seen, self.table.owner, self.free, by_others)[
-            self.free
-        ]
-        common = np.broadcast_to(np.log(prior), chances.shape)
-        own = self._own(reliability, self.free)
-        of_source = [own, kinds, own * self.far, kinds * self.far]
-        of_others = [nearest, np.log(distinct), together, own_mesh, common, self._hear_neighbors(chances, informed)]
-        return np.stack([*of_source, *of_others], axis=-1)
+        kinds = find_wrong_kinds(seen, self.table.owner, self.free, by_others)
+        found[self.free, seen.codes[self.free], 1] = kinds[self.free]
+        found[:, :, 0] = self._own(reliability, self.free)
+        np.multiply(found[:, :, :2], self.far[:, :, None], out=found[:, :, 2:4])
+        return found
 
     def _mix_twins(self, chances: Floats, informed: _Helpers) -> Floats:
         """What hulls say to others: those of one mesh that hardly anything tells apart say what they say on average."""
@@ -192,7 +179,8 @@ class FamilyContext:
         there = np.isfinite(apart)
         gaps = np.where(there, apart, 99.0)
         least = gaps.min(axis=1, keepdims=True)
-        votes = np.where(there, np.exp(least - gaps), 0.0) * informed.worth[hulls]
+        votes = np.exp(np.subtract(least, gaps, out=gaps), out=gaps)
+        votes *= np.where(there, informed.worth[hulls], 0.0)
         total = votes.sum(axis=1, keepdims=True)
         strange = 0.05 + 0.5 * (1 - _alike(least, _ALIKE_NEAREST)) * total
         found: Floats = (_sum_votes(votes, chances, hulls) + strange * prior) / (total + strange)
@@ -202,7 +190,8 @@ class FamilyContext:
         """Of the nearest hulls of distinct meshes the shares of the labels, and their evidence multiplied [nats]."""
         hulls, apart = self.lookalikes.nearest(informed.usable, _DISTINCT, 1)
         there = np.isfinite(apart)
-        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE), 0.0) * informed.worth[hulls]
+        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE), 0.0)
+        alike *= informed.worth[hulls]
         share = (_sum_votes(alike, chances, hulls) + _PRIOR_SHARE * prior) / (alike.sum(axis=1) + _PRIOR_SHARE)[:, None]
         together = np.zeros_like(chances)
         for place in range(min(_TOGETHER, hulls.shape[1])):

@@ -50,8 +50,8 @@ class Lookalikes:
             starts = range(0, max(len(self.apart), 1), _AT_ONCE)
             found = [self._nearest(slice(start, start + _AT_ONCE), usable, count, per_mesh) for start in starts]
             hulls, apart = np.concatenate([one for one, _ in found]), np.concatenate([one for _, one in found])
-            before = self._kept[count, per_mesh] = usable.copy(), hulls, apart
-        return before[1:]
+            before = self._kept[count, per_mesh] = usable.copy(), hulls, apart.astype(self.apart.dtype)
+        return before[1], before[2].astype(float)
 
     @cached_property
     def _kept(self) -> dict[tuple[int, int], tuple[Bools, Places, Floats]]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
+from typing import Literal
 
 import numpy as np
 
@@ -13,7 +14,8 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
-from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of
+from meshforge.label_model.similar import estimate_seconds
+from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of, read_weights
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import LABEL_SOURCES, Label, LabelSource, SymbolicMesh
 
@@ -22,6 +24,7 @@ _NEAR = 0.35  # of the median distance of hulls, within which they stand for eac
 _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which nothing is known counts so much and one
 
 _DIGITS = 3
+CONFIDENCE_FILE = "confidence.json"
 MOST_LIKELY = 0.89
 """How sure a label is at most that follows from hulls of another family alone."""
 _FREE_ODDS = 1.5  # odds of what was said from which on another label must be surer [nats]
@@ -29,6 +32,15 @@ _ALIKE = 0.6  # probability of each of two labels on hulls called the other, tog
 _BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
 _TINY = 1e-12
 _REMEMBERED = 2000  # meshes whose other sides are not described again
+
+
+def to_confidence(chances: Floats, by: Literal["family", "like"] = "family") -> Floats:
+    """Return how often labels of such chances are right in families that the model was not fitted on (logistic
+    regression on the log odds, Platt 1999): beside labelled assets of the same family, or of another one."""
+    level, slope = read_weights(CONFIDENCE_FILE)[int(by == "like")]
+    bounded = np.clip(chances, _TINY, 1 - _TINY)
+    found: Floats = 1 / (1 + np.exp(-level - slope * np.log(bounded / (1 - bounded))))
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +84,11 @@ class FamilyPosterior:
         return self.chances[self.table.spans.get(mesh, slice(0, 0))]
 
     def labels(self, mesh: int, source: LabelSource = "propagated") -> list[Label | None]:
-        """Return the likeliest label of each hull of a mesh, with its chance; None where no label is known at all."""
+        """Return the likeliest label of each hull of a mesh, with its confidence; None where no label is known."""
         rows = self.chances_of(mesh)
         if not self.seen.labels:
             return [None] * len(rows)
-        found = zip(first_greatest(rows).tolist(), np.minimum(rows, self._most), strict=True)
+        found = zip(first_greatest(rows).tolist(), np.minimum(to_confidence(rows), self._most), strict=True)
         return [Label(self.seen.labels[place], round(float(row[place]), _DIGITS), source) for place, row in found]
 
     @cached_property
@@ -132,7 +144,8 @@ class FamilyPosterior:
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
             return given or observed
-        return Label(self.seen.labels[best], round(min(chance, float(self._most[best])), _DIGITS), "propagated", given)
+        sure = min(float(to_confidence(self.chances[hull, best])), float(self._most[best]))
+        return Label(self.seen.labels[best], round(sure, _DIGITS), "propagated", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
         """Return pairs of labels on hulls that look alike, of which hardly any mesh has both: two names of one part?"""
@@ -147,18 +160,22 @@ class FamilyPosterior:
             for one, other in np.argwhere(np.triu(is_alike, 1)).tolist()
         )
 
-    def next_to_label(self, count: int = 1) -> list[int]:
-        """Return the meshes to label next, the best first; none whose hulls all have given labels."""
+    def next_to_label(self, count: int = 1, below: int | None = None) -> list[int]:
+        """Return the meshes to label next, the best first: those that tell most for each second that labelling takes.
+
+        None whose hulls all have given labels, and none of a number of `below` or more.
+        """
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen
-        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]), _MESHES)
+        numbers = np.unique(table.owner[~seen.given])
+        open_meshes = pick_evenly(numbers if below is None else numbers[numbers < below], _MESHES)
         rows = table.rows[:, SHAPE_COLUMNS]
         compared = pick_evenly(np.arange(len(rows)), _HULLS)
         some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
-        near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
+        near = max(float(np.median(cdist(some, some), overwrite_input=True)) * _NEAR, 1e-9)
 
         def alike(hulls: slice | Ints) -> Floats:
             """How much the best of some hulls is like each that is compared."""
@@ -166,10 +183,13 @@ class FamilyPosterior:
             return found
 
         covered = alike(pick_evenly(np.flatnonzero(seen.given), _HULLS))
-        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes.tolist()])
+        spans = [table.spans[mesh] for mesh in open_meshes.tolist()]
+        stands = np.stack([alike(span) for span in spans])
+        seconds = [estimate_seconds(table, span.start + np.flatnonzero(~seen.given[span])) for span in spans]
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
-            gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1)
+            more = stands - covered
+            gains = np.multiply(np.maximum(more, 0.0, out=more), reason, out=more).sum(axis=1) / seconds
             gains[found] = -1.0
             found.append(int(first_greatest(gains)))
             covered = np.maximum(covered, stands[found[-1]])

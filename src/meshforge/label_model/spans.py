@@ -3,11 +3,9 @@ regions and solids that these are of."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
-from importlib.resources import files
+from functools import cached_property
 from itertools import islice
 
 import numpy as np
@@ -15,6 +13,7 @@ import numpy as np
 from meshforge.geometry import Bools, Floats, Ints, Polytope, merge_pieces
 from meshforge.label_model.asset_pieces import WITHIN, AssetPieces, sum_groups
 from meshforge.label_model.posterior import FamilyPosterior, model_family
+from meshforge.label_model.table import read_weights
 from meshforge.label_model.ties import EQUAL
 from meshforge.symbolic import Label
 
@@ -28,15 +27,6 @@ _SLIVER = 3e-3  # of the volume of all pieces of a rebuild: smaller ones go with
 _LEAST_CHANCE = 1e-3  # of a label, where chances of pieces and regions are multiplied
 _SHARPNESS = 0.6  # exponent of both, since they have much of their evidence in common
 _IN_COMMON = 0.5  # exponent of what regions of a solid say against one label of all, for the same reason
-
-
-@cache
-def span_weights() -> Floats:
-    """Return the weights (2,): of one, and of the logit of how often a hull spans parts where labels are drawn."""
-    read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    found = np.array(read["weights"], dtype=float)
-    found.flags.writeable = False
-    return found
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,7 +67,7 @@ class SpanModel:
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
         whole = _estimate_whole(self.assets, observed)
         solids = [weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
-        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, span_weights(), solids)
+        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, read_weights(WEIGHTS_FILE), solids)
 
     def _weigh(self, mesh: int, of_pieces: FamilyPosterior, of_regions: FamilyPosterior) -> Floats:
         """The probability of each label for the pieces of a mesh (pieces, labels), by what is inferred of them, and of
@@ -140,7 +130,8 @@ class SpanPosterior:
         return np.where((self.assets[mesh].common.sum(axis=1) > 0) & bool(self.labels), found, 0.0)
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """Return what the probability is made from (hulls, 2), as `span_weights` has it."""
+        """Return what the probability is made from (hulls, 2): one, and the logit of how often a hull spans parts where
+        labels are drawn."""
         asset, by_region = self.assets[mesh], self.by_region[mesh]
         shares = scale_rows(asset.common, asset.common.sum(axis=1))
         drawn = np.zeros(len(shares))

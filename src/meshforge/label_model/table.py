@@ -23,15 +23,17 @@ METRIC_FILE = "metric.json"
 NO_LABEL = -1
 """The code of a hull of whose label nothing is said."""
 _LEAST_SPREAD = 1e-3  # spread of a column below which it counts as constant
-_AT_ONCE = 16  # columns that are sorted at a time, in a copy
+_AT_ONCE = 16  # columns that are copied at a time
 _MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
 
 
 @cache
-def metric_weights() -> Floats:
-    """Return the weights (columns,) of the distance between rows: the weighted sum of their differences."""
-    read = json.loads(files("meshforge.label_model").joinpath(METRIC_FILE).read_text("utf-8"))
-    found = np.array(read["weights"], dtype=float)
+def read_weights(file: str) -> Floats:
+    """Return fitted numbers, of which a file here each has some: of METRIC_FILE the weights (columns,) of the distance
+    between rows, the weighted sum of their differences."""
+    found = np.array(
+        json.loads(files("meshforge.label_model").joinpath(file).read_text("utf-8"))["weights"], dtype=float
+    )
     found.flags.writeable = False
     return found
 
@@ -48,13 +50,13 @@ class ColumnScale:
         """Return the medians and spreads of some rows (n, columns)."""
         if not len(rows):
             return ColumnScale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
-        some = (rows[:, start : start + _AT_ONCE] for start in range(0, rows.shape[1], _AT_ONCE))
+        some = [rows[:, start : start + _AT_ONCE] for start in range(0, rows.shape[1], _AT_ONCE)]
         middle = np.concatenate([np.median(columns, axis=0) for columns in some])
-        return ColumnScale(middle, np.maximum(rows.std(axis=0), _LEAST_SPREAD))
+        return ColumnScale(middle, np.maximum(np.concatenate([one.std(axis=0) for one in some]), _LEAST_SPREAD))
 
-    def __call__(self, rows: Floats) -> Floats:
-        """Rows about the middle in units of the spread, far values drawn in."""
-        found: Floats = rows - self.middle
+    def __call__(self, rows: Floats, out: Floats | None = None) -> Floats:
+        """Rows about the middle in units of the spread, far values drawn in; out: where they go, which may be rows."""
+        found: Floats = np.subtract(rows, self.middle, out=out)
         found /= self.spread
         return np.clip(found, -_MOST_SPREADS, _MOST_SPREADS, out=found)
 
@@ -81,11 +83,11 @@ class FamilyTable:
         pairs = (touching + start for (_, touching), start in zip(described, np.cumsum(sizes) - sizes, strict=True))
         scale = ColumnScale.of(rows)
         return FamilyTable(
-            scale(rows),
+            scale(rows, out=rows),
             scale,
             np.repeat(np.arange(len(described)), sizes),
             np.concatenate([np.zeros((0, 2), np.int64), *pairs]),
-            metric_weights() if metric is None else metric,
+            read_weights(METRIC_FILE) if metric is None else metric,
         )
 
     @cached_property

@@ -83,8 +83,9 @@ class AllLabeler(Labeler):
 
 
 def _collect(proposal: LabelProposal) -> list[AssetLabels]:
+    """The labels of all assets, with the reasons of those alone: of many hulls nothing is said."""
     with closing(proposal.assets) as assets:
-        return list(assets)
+        return [replace(one, reasons={h: why for h, why in one.reasons.items() if one.given.get(h)}) for one in assets]
 
 
 def _by_asset(found: Sequence[AssetLabels]) -> dict[str, HullLabels]:

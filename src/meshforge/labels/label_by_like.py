@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import UsageError, join_and, join_names, quote_path
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import MOST_LIKELY, reference_label
+from meshforge.label_model import MOST_LIKELY, reference_label, to_confidence
 from meshforge.labels.family_comparison import FamilyComparison, HullLabels, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.like_reference import LikeReference, describe_files, find_sample, read_family, read_references
@@ -19,7 +19,7 @@ from meshforge.labels.merge import can_fill_gap
 from meshforge.samples import FAMILIES
 from meshforge.symbolic import Label
 
-_WITHIN, _WIDER = 0.95, 1.3
+_WITHIN, WIDER = 0.95, 1.3
 """The bound is that of so many hulls of a family to those of its other assets, and so many times as far, as assets of
 one kind that others made differ more: of generated cups, chairs and tables like bundled ones 0.95, 0.80 and 0.95 of the
 hulls whose part is known are right then (at 1.2: 0.92, 0.77, 0.95). Few families have enough hulls for one a label."""
@@ -27,7 +27,7 @@ _ALIKE = 5.0, 10.0  # within which hulls look alike in any case, of one asset an
 _CLEAR = 0.6  # how probable a label must be; below, nearly as much speaks for another one
 _CERTAIN = 0.97
 """How probable it must be to be sure after all, where the nearest hull that a person labelled here has it, too, and is
-no farther than without `_WIDER`: with one asset labelled by hand 396 of 404 such labels of real families were right."""
+no farther than without `WIDER`: with one asset labelled by hand 396 of 404 such labels of real families were right."""
 _AT_ONCE, _MOST = 2000, 2000  # hulls that are compared at a time; that people labelled here, evenly chosen of more
 _TRIED = 500  # hulls, evenly chosen, by which the nearest kinds are found
 _DIGITS = 3
@@ -100,8 +100,8 @@ class _LikeComparison:
         """The nearest of some hulls to each of the project's, how far it is, and how far one of these may be."""
         table = self.compared.found.table
         rows = table.rows[hulls] * table.metric
-        places, apart = _find_nearest(table.rows[: self._own], rows, table.metric)
-        return hulls[places], apart, _measure_bound(rows, table.owner[hulls])
+        places, apart = find_nearest(table.rows[: self._own], rows, table.metric)
+        return hulls[places], apart, measure_bound(rows, table.owner[hulls])
 
     @cached_property
     def _apart(self) -> dict[str, tuple[Floats, float]]:
@@ -116,7 +116,7 @@ class _LikeComparison:
     def check_kind(self, name: str) -> None:
         """Raise LikeMismatchError where most hulls are farther from the family of a name than it spreads itself."""
         (apart, bound), store = self._apart[name], self.family.store
-        if not len(apart) or np.median(apart) * _WIDER <= bound:
+        if not len(apart) or np.median(apart) * WIDER <= bound:
             return
         kinds = self._rank_kinds()
         project, asset = quote_path(store.folder), quote_path(Path(self.compared.assets[0]))
@@ -137,7 +137,7 @@ class _LikeComparison:
         for kind in (one.name for one in FAMILIES):
             assets, _ = describe_files(find_sample(kind)[1], self.family)
             rows = table.scale(np.array([row for asset in assets for row in asset.rows])) * table.metric
-            found[kind] = round(float(np.median(_find_nearest(own, rows, table.metric)[1])), 2)
+            found[kind] = round(float(np.median(find_nearest(own, rows, table.metric)[1])), 2)
         return tuple(sorted(found.items(), key=lambda item: item[1]))
 
     def label_assets(self) -> Generator[AssetLabels, None, None]:
@@ -161,13 +161,14 @@ class _LikeComparison:
         chances = self.compared.found.chances[: self._own]
         order = np.argsort(-chances, axis=1, kind="stable")
         first, chance = order[:, 0], chances.max(axis=1)
+        sure = to_confidence(chance, "like")
         near = np.any([apart <= bound for apart, bound in self._apart.values()], axis=0)
         confirmed = np.zeros_like(near)
         if len(people := np.flatnonzero(seen.fixed)):
             hulls, apart, _ = self._find_nearest(people[:: len(people) // _MOST + 1])
             apart /= max(bound for _, bound in self._apart.values())
             near |= apart <= 1
-            confirmed = (apart * _WIDER <= 1) & (seen.codes[hulls] == first) & (chance >= _CERTAIN)
+            confirmed = (apart * WIDER <= 1) & (seen.codes[hulls] == first) & (chance >= _CERTAIN)
         found = list[tuple[Label | None, str]]()
         for hull, word in enumerate(words[code] for code in first.tolist()):
             if not near[hull]:
@@ -177,8 +178,8 @@ class _LikeComparison:
             elif chance[hull] < _CLEAR:
                 found.append((None, f"as like {word} as {words[order[hull, 1]]}"))
             else:
-                sure = float(chance[hull] if confirmed[hull] else min(chance[hull], MOST_LIKELY))
-                found.append((Label(word, round(sure, _DIGITS), "like"), f"like {names}"))
+                most = 1.0 if confirmed[hull] else MOST_LIKELY
+                found.append((Label(word, round(min(float(sure[hull]), most), _DIGITS), "like"), f"like {names}"))
         return found
 
 
@@ -186,8 +187,8 @@ def _choose_given(current: HullLabels) -> HullLabels:
     return {hull: label for hull, label in current.items() if reference_label(label)}
 
 
-def _find_nearest(rows: Floats, others: Floats, metric: Floats) -> tuple[Ints, Floats]:
-    """The place of the nearest of some weighted rows to each row, and how far it is, by all processors."""
+def find_nearest(rows: Floats, others: Floats, metric: Floats) -> tuple[Ints, Floats]:
+    """Return the place of the nearest of some weighted rows to each row, and how far it is, by all processors."""
     from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
     def compare(start: int) -> tuple[Ints, Floats]:
@@ -199,9 +200,9 @@ def _find_nearest(rows: Floats, others: Floats, metric: Floats) -> tuple[Ints, F
     return np.concatenate([places for places, _ in found]), np.concatenate([gaps for _, gaps in found])
 
 
-def _measure_bound(rows: Floats, owner: Ints) -> float:
-    """How far a hull may be from the nearest of a family; of one asset alone, as far as hulls that look alike are."""
+def measure_bound(rows: Floats, owner: Ints) -> float:
+    """Return how far a hull may be from the nearest of a family; of one asset, as far as hulls that look alike are."""
     if len(assets := np.unique(owner)) < 2:
-        return _WIDER * _ALIKE[1]
-    nearest = [_find_nearest(rows[owner == one], rows[owner != one], np.ones(1))[1] for one in assets.tolist()]
-    return _WIDER * max(float(np.quantile(np.concatenate(nearest), _WITHIN)), _ALIKE[0])
+        return WIDER * _ALIKE[1]
+    nearest = [find_nearest(rows[owner == one], rows[owner != one], np.ones(1))[1] for one in assets.tolist()]
+    return WIDER * max(float(np.quantile(np.concatenate(nearest), _WITHIN)), _ALIKE[0])

@@ -6,6 +6,7 @@ import pytest
 
 from benchmark.study import keystrokes
 from benchmark.study.lookalikes import LookAlikes
+from meshforge.label_model import similar
 from meshforge.language import Delete
 from meshforge.signoff import question as prices
 from meshforge.synthesis import Demonstration, Step
@@ -15,6 +16,12 @@ from tests.synthesis_boxes import table
 def test_prices_of_questions_are_those_of_the_keystroke_model() -> None:
     assert pytest.approx(keystrokes.ANSWER) == prices.CANDIDATE
     assert pytest.approx(keystrokes.CONFIRMATION) == prices.YES_OR_NO
+    assert pytest.approx((keystrokes.THINK, keystrokes.CLICK, keystrokes.KEY, keystrokes.GROUP_HULL)) == (
+        similar.THINK,
+        similar.CLICK,
+        similar.KEY,
+        similar.LOOK,
+    )
     assert prices.price_group(7, 2) == pytest.approx(keystrokes.price_group(7, 2))
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from benchmark.assets import samples
 from meshforge.geometry import Aabb, Box, Floats, Polytope, Pose
-from meshforge.label_model import metric_weights
+from meshforge.label_model import read_weights
 from meshforge.label_model.describe import ROW_WIDTH, MeshDescriber
 from meshforge.label_model.surroundings import points_inside, points_on_surface
 from meshforge.symbolic import Hull, SymbolicMesh
@@ -24,11 +24,14 @@ def described(mesh: SymbolicMesh) -> Floats:
     return MeshDescriber(mesh).describe().rows
 
 
+METRIC = read_weights("metric.json")
+
+
 def test_every_hull_has_a_row_of_finite_numbers_as_wide_as_the_metric() -> None:
     rows = described(CHAIR)
-    assert rows.shape == (len(CHAIR.hulls), ROW_WIDTH) == (len(CHAIR.hulls), len(metric_weights()))
+    assert rows.shape == (len(CHAIR.hulls), ROW_WIDTH) == (len(CHAIR.hulls), len(METRIC))
     assert np.isfinite(rows).all()
-    assert (metric_weights() > 0).all()
+    assert (METRIC > 0).all()
 
 
 def test_no_hulls_have_no_rows_and_one_alone_has_one() -> None:
@@ -46,7 +49,7 @@ def test_neither_place_nor_size_nor_yaw_changes_a_row(yaw: float, x: float, scal
     moved = [Hull(hull.name, "body", shape, hull.annotation) for hull, shape in zip(CHAIR.hulls, shapes, strict=True)]
     far = np.abs(described(SymbolicMesh(tuple(moved), scale=CHAIR.diagonal * scale)) - described(CHAIR))
     assert np.median(far) < 1e-6
-    assert far @ metric_weights() == pytest.approx(0.0, abs=0.25)  # a point may change its ring by a rounding
+    assert far @ METRIC == pytest.approx(0.0, abs=0.25)  # a point may change its ring by a rounding
 
 
 def test_the_order_of_hulls_does_not_matter() -> None:

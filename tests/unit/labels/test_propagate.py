@@ -121,13 +121,3 @@ def test_no_meshes_and_meshes_without_hulls_are_no_error() -> None:
     found = propagate([boxes(), *asking(rows, [0])])
     assert found.labels(0) == []
     assert found.next_to_label(5) == []
-
-
-def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> None:
-    rows = samples("knife", calibration=True)
-    found = propagate(asking(rows, []))
-    everyone = found.next_to_label(len(rows) + 3)
-    assert sorted(everyone) == list(range(len(rows)))
-    assert everyone[:1] == found.next_to_label()
-    kinds = {hull.label for k in everyone[:3] for hull in rows[k].mesh.hulls}
-    assert len(kinds) > len({hull.label for hull in rows[everyone[-1]].mesh.hulls})
