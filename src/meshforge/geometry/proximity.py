@@ -26,7 +26,7 @@ def close_pairs(
 ) -> dict[tuple[int, int], float]:
     """Return distance of each pair (i, j), i < j, of shapes at most `reach` [m] apart, in order of (i, j).
 
-    settled: indices among which no pair is wanted, only pairs with one of the others.
+    unchanged: indices among which no pair is wanted, only pairs with one of the others.
     """
     if len(shapes) < 2:
         return {}

@@ -67,6 +67,16 @@ def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
     assert distance(shape, Box(Pose.of_translation([2.5, 0, 0]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
 
 
+def test_distances_do_not_depend_on_what_was_measured_before() -> None:
+    """Polytopes of coal's are written to again and again."""
+    balls = [ball(corners, np.array([0, 0, 2.5 * k])) for k, corners in enumerate((8, 20, 33, 100, 192, 193))]
+    first = close_pairs(balls, 1.0)
+    assert len(first) == len(balls) - 1
+    for one in balls[::-1]:
+        distance(one, ball(5, np.array([9.0, 0, 0])))
+    assert close_pairs(balls, 1.0) == first
+
+
 def test_boxes_near_each_other_are_found_in_blocks_too() -> None:
     rng = np.random.default_rng(0)
     low = rng.random((1300, 3)) * 30
