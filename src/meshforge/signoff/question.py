@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from hashlib import blake2b
 from typing import Any, Literal, NamedTuple, get_args
 
+from meshforge.label_model.similar import CLICK, LOOK, THINK
 from meshforge.language import Orient, Program, show
 from meshforge.synthesis import Demonstration
 
@@ -151,19 +152,17 @@ class ReviewReply:
         return {"choice": self.choice, **{name: row for name, row in parts.items() if row}, **more}
 
 
-_THINK, _CLICK = 1.35, 1.3
-CANDIDATE = 2 * _THINK + _CLICK
+CANDIDATE = 2 * THINK + CLICK
 """Pictures compared, and one taken."""
-YES_OR_NO = _THINK + _CLICK
+YES_OR_NO = THINK + CLICK
 """A result or a label looked at, and one click."""
-_OPEN, _STEP = _THINK + _CLICK, _THINK + _CLICK
-_HULL_OF_GROUP = 0.5
+_OPEN, _STEP = THINK + CLICK, THINK + CLICK
 _USUAL_DEMONSTRATION = (2.0, 4.0)  # steps and hulls, where nothing was demonstrated yet
 
 
 def price_group(hulls: int, exceptions: float = 0.0) -> float:
     """Return a group of look-alike hulls looked at and confirmed, but for some that are clicked."""
-    return _THINK + _HULL_OF_GROUP * hulls + _CLICK * (1 + exceptions)
+    return THINK + LOOK * hulls + CLICK * (1 + exceptions)
 
 
 def price_demonstration(demos: Iterable[Demonstration]) -> float:
@@ -174,4 +173,4 @@ def price_demonstration(demos: Iterable[Demonstration]) -> float:
     else:
         count = sum(map(len, steps)) / len(steps)
         hulls = sum(len(select) for some in steps for select in some) / len(steps)
-    return _OPEN + _STEP * count + _CLICK * hulls
+    return _OPEN + _STEP * count + CLICK * hulls
