@@ -43,6 +43,7 @@ from meshforge.project.next_step import NextStep as NextStep
 from meshforge.project.next_step import format_first as format_first
 from meshforge.project.next_step import format_next as format_next
 from meshforge.project.next_step import format_step as format_step
+from meshforge.project.status import SOURCE_WORDS as SOURCE_WORDS
 from meshforge.project.status import AssetStatus as AssetStatus
 from meshforge.project.status import FamilyState as FamilyState
 from meshforge.project.status import LastRun as LastRun

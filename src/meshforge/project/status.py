@@ -14,6 +14,21 @@ SignOffState = Literal["signed off", "sure", "needs review", "void", "excluded",
 unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
 LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"]
+SOURCE_WORDS: dict[str, str] = {
+    "user": "people",
+    "repair": "people, repairs confirmed",
+    "file": "files",
+    "name": "names",
+    "propagated": "propagation",
+    "like": "another family",
+    "step": "steps shown",
+    "class": "likeness to steps shown",
+    "rebuild": "rebuilt bodies",
+    "vlm": "a model",
+    "edit": "edits",
+    "plugin": "plug-ins",
+}
+"""Where labels of each source are from."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -208,6 +208,7 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     color = shade_surface(layers[0], solid, frame, close, rows, columns)
     color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
     color += (1 - color) * (0.55 * _is_between_stripes(layers[0], solid)[rows, columns])[:, None]
+    color *= (1 - 0.4 * _is_dot(layers[0], solid)[rows, columns])[:, None]
     pixels[rows, columns, :3], pixels[rows, columns, 3] = color, 1.0
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
     drawn = trace_lines(solid, width)
@@ -264,7 +265,20 @@ def _is_between_stripes(layer: DrawLayer, hits: RayHits) -> Any:
     """Which pixels (h, w) lie between the diagonal stripes of hatched things, sixty stripes across the picture."""
     if not layer.hatched:
         return np.zeros(hits.item.shape, dtype=bool)
+    row, column, period = _grid(hits)
+    return ((row + column) % period >= period // 2) & np.isin(hits.item, sorted(layer.hatched))
+
+
+def _is_dot(layer: DrawLayer, hits: RayHits) -> Any:
+    """Which pixels (h, w) are dots of dotted things, as far apart as stripes."""
+    if not layer.dotted:
+        return np.zeros(hits.item.shape, dtype=bool)
+    row, column, period = _grid(hits)
+    across, down = (row + column) % period - period / 2, (row - column) % period - period / 2
+    return (across**2 + down**2 < (period / 4) ** 2) & np.isin(hits.item, sorted(layer.dotted))
+
+
+def _grid(hits: RayHits) -> tuple[Ints, Ints, int]:
+    """The rows (h, 1) and columns (w,) of pixels, and how far apart stripes are [px]."""
     height, width = hits.item.shape
-    period = max(4, (width + height) // 120)
-    gap = (np.arange(height)[:, None] + np.arange(width)) % period >= period // 2
-    return gap & np.isin(hits.item, sorted(layer.hatched))
+    return np.arange(height)[:, None], np.arange(width), max(4, (width + height) // 120)

@@ -1,5 +1,5 @@
 """Labels on the cards of a family: shown as soon as a person gave them, while their files are still being written; and
-what the history says of them: what the last edit of all labels changed, and what is new since propagation."""
+what the history says of them: what the last edit of all labels changed, and how many were given since."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -7,17 +7,19 @@ from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
-from meshforge.project import Project, PropagationState
+from meshforge.project import PropagationState
 from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.pages import PageState
-from meshforge.studio.wire.family import Card
+from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate
-from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
+from meshforge.symbolic import NO_PART, Label, read_labels
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
 HullNames = Mapping[str, Sequence[str]]
 """The names of the hulls of each asset, in order."""
+LABEL_ALL = "label-all"
+"""The kind of the edit that labels all hulls."""
 
 HullLabels = Mapping[str, Label]
 """Labels by the names of hulls."""
@@ -54,15 +56,18 @@ class LabelChanges:
         """Note a propagation that changed no label and so is no entry; entries: how many there were then."""
         self._no_change = self._history.entries[:entries], best
 
-    def propagation_state(self, project: Project, cards: Sequence[Card]) -> PropagationState | None:
-        """Return what is known of the last propagation; None where there was none, or where it is undone."""
+    def propagation_state(self, cards: Sequence[wire.Card]) -> PropagationState | None:
+        """Return what is known of the last time that all hulls were labelled; None where there was none, or where it is
+        undone."""
         done = self._history.entries
         used = self._last_propagation(done)
         if used is None:
             return None
-        is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
-        states = self._label_states(project, done[used.entries :])
-        unused = sum(count_new_labels(before, now) for before, now in states)
+        is_open = any(card.asset == used.best and any(sure != wire.GIVEN for sure in card.sureness) for card in cards)
+        edits = [entry.edit for entry in done[used.entries :] if entry.edit.get("kind") == "label"]
+        rows = ((asset, hulls, edit["label"]) for edit in edits for asset, hulls in edit["hulls"].items())
+        given = {(asset, hull): label for asset, hulls, label in rows for hull in hulls}
+        unused = sum(label is not None for label in given.values())
         return PropagationState(unused=unused, next=used.best if is_open else None)
 
     def _build_change(self, entry: HistoryEntry, names: HullNames) -> LabelUpdate:
@@ -74,7 +79,7 @@ class LabelChanges:
         return LabelUpdate(way=entry.edit["kind"], assets=tuple(filter(None, found)))
 
     def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
-        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
+        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == LABEL_ALL), None)
         edit = {} if last is None else done[last].edit
         found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))
         if self._no_change is None:
@@ -82,23 +87,6 @@ class LabelChanges:
         entries, best = self._no_change
         is_newer = found is None or len(entries) > found.entries
         return _Propagation(len(entries), best) if is_newer and done[: len(entries)] == entries else found
-
-    def _label_states(self, project: Project, since: Sequence[HistoryEntry]) -> Iterator[tuple[HullLabels, HullLabels]]:
-        """The labels of each asset that people or files labelled since: before that, with the names of now, and now."""
-        first: dict[str, str | None] = {}
-        for entry in since:
-            first = first if entry.edit.get("kind") == "propagate" else entry.before | first
-        words = [(entry.edit["old"], entry.edit["new"]) for entry in since if entry.edit.get("kind") == "rename-label"]
-        known = set(project.assets())
-        for asset, name in _labels_files(first).items():
-            if asset in known:
-                before = self._read_state(first[name])
-                for old, new in words:
-                    before = {hull: label.rename(old, new) for hull, label in before.items()}
-                try:
-                    yield before, project.labels(asset).labels
-                except MeshForgeError:  # its card shows that they cannot be read
-                    continue
 
     def _read_state(self, digest: str | None) -> HullLabels:
         """What a labels file held; empty where there was none, or where the history was damaged."""
@@ -123,12 +111,6 @@ def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: Hul
     return AssetLabelUpdate(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
 
 
-def count_new_labels(before: HullLabels, now: HullLabels) -> int:
-    """Return how many labels of people and files are new or changed."""
-    given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
-    return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())
-
-
 class EarlyLabels:
     """Shows labels before they are written; refreshing the cards shows the rest of what they change.
 
@@ -148,7 +130,7 @@ class EarlyLabels:
             self._pages.set_cards(before)
             raise
 
-    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
+    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[wire.Card, ...]:
         cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
         places = {word.name: place for place, word in enumerate(self._pages.shown.project.vocabulary)}
         names = self._names()
@@ -158,7 +140,9 @@ class EarlyLabels:
         return tuple(cards.values())
 
 
-def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]) -> Card:
+def relabel_card(
+    card: wire.Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]
+) -> wire.Card:
     """Return a card with labels that a person gave; names: of its hulls, in order; places: of the labels in the
     vocabulary.
 
@@ -167,14 +151,12 @@ def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | No
     if len(names) != len(card.labels):
         return card
     at = {name: place for place, name in enumerate(names)}
-    new = {
-        at[hull]: -1 if label is None else places[label]
-        for hull, label in labels.items()
-        if hull in at and (label is None or label in places)
-    }
+    known: dict[str | None, int] = {None: wire.NO_LABEL, NO_PART: wire.NO_PART, **places}
+    new = {at[hull]: known[label] for hull, label in labels.items() if hull in at and label in known}
+    sure = {place: wire.NO_LABEL if label == wire.NO_LABEL else wire.GIVEN for place, label in new.items()}
     return card.model_copy(
         update={
             "labels": tuple(new.get(place, label) for place, label in enumerate(card.labels)),
-            "unsure": tuple(place for place in card.unsure if place not in new),
+            "sureness": tuple(sure.get(place, percent) for place, percent in enumerate(card.sureness)),
         }
     )

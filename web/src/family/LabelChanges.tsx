@@ -13,16 +13,14 @@ import {
   openNextChange,
 } from "../store/labelChanges";
 import { useProject } from "../store/project";
-import { labelProgress } from "../store/unsureHulls";
+import { labelProgress } from "../store/labelWalk";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import type { LabelUpdate } from "../wire";
 
 const TITLES: Readonly<Record<LabelUpdate["way"], string>> = {
-  propagate: "Labels propagated",
-  "label-files": "Labels taken from files",
-  "label-names": "Labels taken from names",
+  "label-all": "Hulls labelled",
   "label-vlm": "Labels from a model",
 };
 

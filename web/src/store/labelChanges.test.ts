@@ -14,7 +14,7 @@ import { emptyProject, receive, useProject } from "./project";
 import { initialWorkspace, useWorkspace } from "./workspace";
 
 const found: LabelUpdate = {
-  way: "propagate",
+  way: "label-all",
   assets: [
     { asset: "a", new: [0, 1], changed: [], was: [] },
     { asset: "c", new: [2], changed: [0], was: ["leg"] },

@@ -14,12 +14,17 @@ from meshforge.studio.wire.requests import HullOfAsset
 Verdict = Literal["accepted", "wrong"]
 
 
+NO_LABEL, NO_PART, GIVEN = -1, -2, 101
+"""In `Card`: of a hull without a label, and of one that is none of the parts; of a label that a person, a file or a
+name gave."""
+
+
 class Card(Wire):
     """One asset in the gallery.
 
     hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
-    place in the vocabulary, -1 for none, -2 for one that is none of the parts; unsure: positions of hulls whose label
-    is not sure; given: how many labels a person or a file gave.
+    place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; sureness: for each, the percentage that its label is
+    sure to, below 50 where it is unsure, or one of `NO_LABEL` and `GIVEN`.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -31,8 +36,7 @@ class Card(Wire):
     asset: str
     hulls: int | None = None
     labels: tuple[int, ...] = ()
-    unsure: tuple[int, ...] = ()
-    given: int = 0
+    sureness: tuple[int, ...] = ()
     demonstrated: bool = False
     output: OutputState = "none"
     after: int | None = None

@@ -4,7 +4,7 @@ import { type FormEvent, useMemo, useState } from "react";
 import { perform } from "../../store/edits";
 import { addLabels, countLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
-import { applyLabel, labelProgress } from "../../store/unsureHulls";
+import { applyLabel, labelProgress } from "../../store/labelWalk";
 import { countText, listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { IconButton } from "../../ui/Button";
