@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from meshforge.project import Project
+from meshforge.studio.wire.family import GIVEN
 from meshforge.symbolic import Label
 from tests.e2e.legs import HULLS, LABELS, four_legged
 from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
@@ -47,7 +48,7 @@ def labels(studio: Studio) -> dict[str, bytes]:
 
 def carry(studio: Studio, page: Page) -> dict[str, Any]:
     """Propagate labels; the job when it is over."""
-    return page.job(ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"])
+    return page.job(ok(studio.post("/api/jobs", {"kind": "label"}))["id"])
 
 
 def relabelled(page: Page) -> dict[str, Any]:
@@ -69,18 +70,19 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert (job["state"], job["done"], job["total"]) == ("done", 4, 4)
         assert job["message"].startswith("15 labels on 3 assets; ")
         found = relabelled(page)
-        assert found["way"] == "propagate"
+        assert found["way"] == "label-all"
         assert [(one["asset"], one["new"]) for one in found["assets"]] == [
             (f"t{k}.obj", list(range(5))) for k in (1, 2, 3)
         ]
-        cards = studio.cards(lambda cards: all(len(card["unsure"]) for card in list(cards.values())[1:]))
-        assert [card["given"] for card in cards.values()] == [5, 0, 0, 0]
-        assert all(set(card["unsure"]) <= {1, 2, 3, 4} for card in cards.values()), "tops are sure"
+        cards = studio.cards(lambda cards: all(-1 not in card["sureness"] for card in cards.values()))
+        assert cards[FIRST]["sureness"] == [GIVEN] * 5
+        others = [card["sureness"] for card in cards.values()][1:]
+        assert all(top == GIVEN and min(legs) < 50 for top, *legs in others), "only tops have a name that says a label"
         hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
         assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
         assert hello["project"]["carried"]["next"] in (SECOND, THIRD, "t3.obj")
         after = labels(studio)
-        assert ok(studio.post("/api/undo"))["message"] == "labels propagated"
+        assert ok(studio.post("/api/undo"))["message"] == "hulls labelled"
         assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
         assert labels(studio) == before
         ok(studio.post("/api/redo"))
@@ -94,8 +96,8 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
 def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -> None:
     with studio.page() as page:
         assert page.hello
-        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
-        assert studio.post("/api/jobs", {"kind": "propagate"}).status_code == 400
+        job = ok(studio.post("/api/jobs", {"kind": "label"}))["id"]
+        assert studio.post("/api/jobs", {"kind": "label"}).status_code == 400
         for name in HULLS:
             studio.edit("label", hulls={SECOND: [name]}, label="fourth")
         assert page.job(job)["state"] == "done"
@@ -104,7 +106,7 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
     assert dict(project.labels(SECOND).labels) == said
     assert _given(studio, SECOND) == len(HULLS)
     after = 0  # labels that came when all was carried over already
-    while ok(studio.post("/api/undo"))["message"] != "labels propagated":
+    while ok(studio.post("/api/undo"))["message"] != "hulls labelled":
         after += 1
     assert dict(project.labels(SECOND).labels) == dict(list(said.items())[: len(said) - after])
     assert not project.labels(THIRD).labels
@@ -117,15 +119,15 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
 def _given(studio: Studio, asset: str) -> int:
     """How many labels of an asset are a person's, once that is shown."""
     cards = studio.cards(lambda cards: all(place >= 0 for place in cards[asset]["labels"]))
-    given: int = cards[asset]["given"]
-    return given
+    sureness: list[int] = cards[asset]["sureness"]
+    return sureness.count(GIVEN)
 
 
 def test_one_that_is_stopped_changes_nothing(studio: Studio) -> None:
     before = labels(studio)
     with studio.page() as page:
         assert page.hello
-        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
+        job = ok(studio.post("/api/jobs", {"kind": "label"}))["id"]
         ok(studio.post("/api/jobs/cancel", {"id": job}))
         over = page.job(job)
         assert (over["state"], over["message"]) == ("cancelled", "Cancelled: no label was changed.")
@@ -137,7 +139,7 @@ def test_one_that_is_stopped_changes_nothing(studio: Studio) -> None:
 def test_hulls_that_were_cut_meanwhile_are_told_and_nothing_is_written(studio: Studio) -> None:
     with studio.page() as page:
         assert page.hello
-        job = ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"]
+        job = ok(studio.post("/api/jobs", {"kind": "label"}))["id"]
         studio.edit("cut", asset=THIRD, hull="top", at=[1, 1, 1.45], across=[1, 0, 0])
         over = page.job(job)
         assert over["state"] == "failed"
@@ -156,7 +158,7 @@ def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) 
         studio.settled()
         studio.edit("label", hulls={"table_02.obj": ["convex_00"]}, label="drawer")
         before = labels(studio)
-        ok(studio.post("/api/jobs", {"kind": "propagate"}))
+        ok(studio.post("/api/jobs", {"kind": "label"}))
         time.sleep(seconds)
         studio.process.send_signal(signal.SIGKILL)
         studio.process.wait(PATIENCE)
@@ -164,6 +166,6 @@ def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) 
         hello = studio.settled()
         assert not any(card["error"] for card in hello["cards"])
         assert said.items() <= dict(project.labels("table_02.obj").labels).items()
-        if hello["history"]["undo"] == "labels propagated":
+        if hello["history"]["undo"] == "hulls labelled":
             ok(studio.post("/api/undo"))
         assert {name: text for name, text in labels(studio).items() if not name.endswith(".tmp")} == before
