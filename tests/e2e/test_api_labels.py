@@ -62,7 +62,7 @@ def relabelled(page: Page) -> dict[str, Any]:
 
 def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: Studio) -> None:
     before = labels(studio)
-    assert "propagate labels" in studio.settled()["project"]["next"]["text"]
+    assert "label all hulls" in studio.settled()["project"]["next"]["text"]
     with studio.page() as page:
         assert page.hello["relabelled"] is None
         assert page.hello["project"]["carried"] is None

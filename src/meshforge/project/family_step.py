@@ -109,7 +109,7 @@ def _has_whole(state: FamilyState) -> bool:
 
 
 def _propagate(state: FamilyState, why: str) -> NextStep:
-    return _step(state, "propagate", f"{why}: propagate labels.", "label")
+    return _step(state, "propagate", f"{why}: label all hulls.", "label")
 
 
 def _label_rest(state: FamilyState) -> NextStep | None:

@@ -84,7 +84,7 @@ describe("Escape", () => {
 describe("P", () => {
   it("labels all hulls, or says why it cannot", async () => {
     const started = vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
-    press("P");
+    await press("P");
     expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Label the hulls of one asset first."]);
     expect(started).not.toHaveBeenCalled();
     useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], sureness: [101, -1] }) } });

@@ -1,5 +1,5 @@
 // Commands that label: the digits, the brush, all hulls at once, and the walk through labels that nobody gave.
-import { labelAll, whyNotLabel } from "../store/jobs";
+import { labelAll, saveEdits, whyNotLabel } from "../store/jobs";
 import { applyLabel, confirmLabels, placeInWalk, walk } from "../store/labelWalk";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
@@ -27,8 +27,9 @@ const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit
 
 const canWalk = (): boolean => isLabelling() && useProject.getState().order.length > 0;
 
-/** Labels all hulls, or says why not. */
-function tryLabel(): unknown {
+/** Labels all hulls, or says why not, as soon as what was painted before is saved. */
+async function tryLabel(): Promise<unknown> {
+  await saveEdits();
   const why = whyNotLabel();
   return why === null ? labelAll() : notify(why);
 }

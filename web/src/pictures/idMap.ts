@@ -53,7 +53,7 @@ export function paintPixels(map: IdMap, paint: Paint): Uint8ClampedArray<ArrayBu
     const [x, y] = [k % map.width, Math.floor(k / map.width)];
     const paler = look.fill === "dotted" ? PALE : look.fill === "hatched" && (x + y) % STRIPE < BARE ? 0.72 : 0;
     const isDot = look.fill === "dotted" && x % DOT < 2 && (y + (Math.floor(x / DOT) % 2) * (DOT / 2)) % DOT < 2;
-    const light = ((map.shade[k] ?? 0) / 255) * (isDot ? 0.62 : 1);
+    const light = ((map.shade[k] ?? 0) / 255) * (isDot ? 0.7 : 1);
     for (let c = 0; c < 3; c++) {
       const value = (look.color[c as 0 | 1 | 2] ?? 0) * light;
       out[4 * k + c] = value + paler * (255 * light - value);

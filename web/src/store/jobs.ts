@@ -34,11 +34,15 @@ export function whyNotLabel(): string | null {
   return given === hulls ? "Every label was given by you, a file or a name." : null;
 }
 
-/** Begins a job as soon as the edits before it are saved, and gives its id; null where it cannot be begun. */
-async function requestJob(request: JobRequest): Promise<string | null> {
+/** Ends the stroke in hand, and waits until all edits are saved and shown. */
+export async function saveEdits(): Promise<void> {
   endStroke();
-  const edits = pendingEdits();
-  if (edits) await edits;
+  await pendingEdits();
+}
+
+/** Begins a job once the edits before it are saved, and gives its id; null where it cannot be begun. */
+async function requestJob(request: JobRequest): Promise<string | null> {
+  await saveEdits();
   try {
     return (await api.startJob(request)).id;
   } catch (error) {

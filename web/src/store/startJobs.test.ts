@@ -47,6 +47,7 @@ describe("a job", () => {
     await exportTo("out", true);
     await askModel(true, 2.5);
     makeHulls(["a"]);
+    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(8));
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
       { kind: "apply", assets: ["a"], rebuild: true },

@@ -182,8 +182,7 @@ def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
     taken, unsure = (sum(getattr(one, name) for one in result.outcomes) for name in ("taken", "unsure"))
     if taken:
         assets = pluralize(sum(outcome.taken > 0 for outcome in result.outcomes), "asset")
-        reason = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
-        yield f"{pluralize(taken, 'label')} on {assets}; {reason}."
+        yield f"{pluralize(taken, 'label')} on {assets}; {unsure or 'none'} unsure."
     else:
         yield "Every label stays as it is."
     shares = [f"{SOURCE_WORDS[one.source]} {one.sure + one.likely + one.unsure:,}" for one in tally.shares]

@@ -128,7 +128,7 @@ const FACE_VERTEX = /* glsl */ `
     if (base.a < 0.75) {
       vec3 paler = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), base.a < 0.25 ? 0.62 : 0.4), glow, share) * lit, 1.0)).rgb;
       if (base.a < 0.25) stripe = paler;
-      else { color.rgb = paler; stripe = 0.62 * paler; }
+      else { color.rgb = paler; stripe = 0.7 * paler; }
     }
     clipAt(placed(state));
     gl_Position = projected(state);
@@ -154,8 +154,8 @@ const FACE_FRAGMENT = /* glsl */ `
     vec2 cell = mod(floor(spot / 2.0), 2.0);
     if (role == ${ROLE.removed}.0 && cell.x != cell.y) discard;
     if (color.a < 0.25 && fract((spot.x + spot.y) / 9.0) < 0.4) gl_FragColor.rgb = stripe;
-    vec2 grid = fract(vec2(spot.x + spot.y, spot.x - spot.y) / 9.0) - 0.5;
-    if (color.a > 0.25 && color.a < 0.75 && dot(grid, grid) < 0.045) gl_FragColor.rgb = stripe;
+    vec2 grid = fract(vec2(spot.x + spot.y, spot.x - spot.y) / 10.0) - 0.5;
+    if (color.a > 0.25 && color.a < 0.75 && dot(grid, grid) < 0.022) gl_FragColor.rgb = stripe;
   }
 `;
 

@@ -112,20 +112,14 @@ export function Legend() {
   );
 }
 
-const FILLS = [
-  ["given", "labelled by you, a file or a name"],
-  ["guessed", "guessed"],
-  ["unsure", "unsure"],
-] as const;
-
 /** What dots and stripes mean, where there are some. */
 function Fills() {
   const isGuessed = useScenes(({ scene }) => scene?.hulls.some(({ look }) => look === "guessed" || look === "unsure"));
   return isGuessed ? (
     <ul className={css.legend} aria-label="How labels are shown">
-      {FILLS.map(([look, text]) => (
+      {(["given", "guessed", "unsure"] as const).map((look) => (
         <li key={look}>
-          <Swatch color="var(--hull-unlabelled)" fill={fillOf({ look })} /> {text}
+          <Swatch color="var(--hull-unlabelled)" fill={fillOf({ look })} /> {look}
         </li>
       ))}
     </ul>
