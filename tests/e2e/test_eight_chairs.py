@@ -28,7 +28,7 @@ Is(slat) => Delete
 Is(leg)  => Each(Merge)
 """)
 FIRST, SECOND = "chair_0.obj", "chair_1.obj"
-MOST_ACTS = 45
+MOST_ACTS = 22
 """To label eight chairs with eight labels."""
 
 

@@ -1,7 +1,7 @@
 
 import { expect, test } from "vitest";
 import type { Scene } from "../store/scenes";
-import { CONFIDENCE, confidenceColor, distinctPlaces, fillOf } from "./hullColors";
+import { distinctPlaces, fillOf } from "./hullColors";
 
 const names = Array.from({ length: 40 }, (_, k) => `h${k}`);
 const scene = (hulls: readonly { name: string; parent: string | null }[], contacts: [string, string][]) =>
@@ -29,10 +29,6 @@ test("what is made takes another colour where a neighbour has its parent's", () 
   const twin = names.find((name) => name !== "h1" && before.get(name) === before.get("h1")) ?? "";
   const after = distinctPlaces(scene([...own, { name: "made", parent: "h1" }], [["made", twin]]));
   expect(after.get("made")).not.toBe(before.get("h1"));
-});
-
-test("the scale of confidence ends in its ends", () => {
-  expect([confidenceColor(0), confidenceColor(1), confidenceColor(7)]).toEqual([CONFIDENCE[0], CONFIDENCE.at(-1), CONFIDENCE.at(-1)]);
 });
 
 test("labels that are given, guessed and unsure are told apart without colours", () => {

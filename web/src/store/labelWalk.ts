@@ -70,9 +70,6 @@ useProject.subscribe((now, before) => {
   if (now.relabelled && now.relabelled !== before.relabelled) current = null;
 });
 
-/** Positions that were labelled since a card was sent. */
-const labelledPlaces = new WeakMap<Card, Set<number>>();
-
 /** Labels the selected hulls, or, where none is, arms the label so that clicks paint it; null takes labels away. */
 export function applyLabel(label: string | null): void | Promise<void> {
   const { asset, selection, elsewhere, brush } = useWorkspace.getState();
@@ -95,22 +92,17 @@ export async function confirmLabels(): Promise<void> {
   const labels = [...new Set(hulls.map((hull) => hull.label))];
   const having = (label: string | null) => hulls.filter((hull) => hull.label === label).map((hull) => hull.name);
   for (const label of labels) if (!(await labelHulls(asset, having(label), label ?? NO_PART, true))) return;
-  if (!hulls.length) return;
-  noteLabelled(asset, hulls.map((hull) => hull.name));
-  await walk(1);
+  if (hulls.length) await walk();
 }
 
 async function labelAndGoOn(asset: string, hulls: readonly string[], label: string): Promise<void> {
-  if (!(await labelHulls(asset, hulls, label, true))) return;
-  noteLabelled(asset, hulls);
-  await walk(1);
+  if (await labelHulls(asset, hulls, label, true)) await walk();
 }
 
 /** Opens the asset of the next hull of the walk, or of the one before, selects the hull and looks at it. */
 export async function walk(by: 1 | -1 = 1): Promise<void> {
   const { cards, order } = useProject.getState();
-  const isLeft = ({ asset, position }: Place) => !labelledPlaces.get(cards[asset] as Card)?.has(position);
-  const next = nextPlace(walkOf(cards).filter(isLeft), order, placeInHand(by), by);
+  const next = nextPlace(walkOf(cards), order, placeInHand(by), by);
   if (!next) return notify("Every label was given by you, a file or a name.");
   openStage("label");
   openAsset(next.asset);
@@ -141,12 +133,3 @@ function placeInHand(by: 1 | -1): Place | null {
 
 const isCurrent = (asset: string, hulls: readonly string[]): boolean =>
   current?.asset === asset && hulls.length === 1 && hulls[0] === current.hull;
-
-/** Notes that hulls are labelled, until their card tells. */
-function noteLabelled(asset: string, names: readonly string[]): void {
-  const card = useProject.getState().cards[asset];
-  const { scene } = useScenes.getState();
-  if (!card || scene?.asset !== asset) return;
-  const places = names.map((name) => scene.view.hulls.findIndex((hull) => hull.name === name));
-  labelledPlaces.set(card, new Set([...(labelledPlaces.get(card) ?? []), ...places]));
-}

@@ -33,7 +33,7 @@ export type Showing =
   | { kind: "steps"; steps: number }
   | { kind: "result"; of: "program" | "output" };
 
-export type ColorBy = "hull" | "label" | "confidence" | "body";
+export type ColorBy = "hull" | "label" | "body";
 export type Tool = "select" | "box" | "lasso" | "cut" | "landmark" | "ruler";
 export type StandardView = "front" | "back" | "right" | "left" | "top" | "bottom" | "iso";
 export type Compare = "off" | "slider" | "side";

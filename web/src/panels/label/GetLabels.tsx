@@ -5,9 +5,9 @@ import { askModel, cancelJob, forecastModel, labelAll, useJob, whyNotLabel } fro
 import { useFreshSources, useLabelSources } from "../../store/labelSources";
 import { labelProgress } from "../../store/labelWalk";
 import { useProject } from "../../store/project";
-import { capitalize, countText } from "../../store/words";
-import { openAsset, useWorkspace } from "../../store/workspace";
-import { Button, IconButton } from "../../ui/Button";
+import { capitalize, countText, shortName } from "../../store/words";
+import { openAsset } from "../../store/workspace";
+import { Button } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
 import type { Job, Model } from "../../wire";
@@ -86,7 +86,11 @@ function LabelReady({ job }: { job: Job | null }) {
     <SourceRow icon={Waypoints} title={ALL_TITLE} text={why ?? (there.join(", ") || "All that is there is used")} action={label}>
       {job && isPresent && <JobNote job={job} />}
       {job && isPresent && <JobLines lines={lost} />}
-      {carried?.next && <Best asset={carried.next} />}
+      {carried?.next && (
+        <Button look="quiet" icon={ArrowRight} onClick={() => openAsset(carried.next)} tip="It helps most if you label it">
+          Label next: {shortName(carried.next)}
+        </Button>
+      )}
     </SourceRow>
   );
 }
@@ -102,21 +106,6 @@ function useSourceTexts(): string[] {
     names ? `names of ${countText(names, "hull")}` : "",
     labels ? (carried ? `${countText(labels, "label")} not used yet` : `${countText(labels, "label")} on ${countText(assets, "asset")}`) : "",
   ].filter(Boolean);
-}
-
-/** The asset that helps most if you label it. */
-function Best({ asset }: { asset: string }) {
-  const isOpen = useWorkspace((workspace) => workspace.asset === asset);
-  return (
-    <div className={css.best}>
-      <span title={`${asset} helps most if you label it`}>
-        Label next: <b>{asset}</b>
-      </span>
-      {!isOpen && (
-        <IconButton icon={ArrowRight} name={`Open ${asset} and label it`} onClick={() => openAsset(asset)} />
-      )}
-    </div>
-  );
 }
 
 /** A source that is being asked, with what counts so far; counted: whether that can be counted. */

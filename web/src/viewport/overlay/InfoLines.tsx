@@ -1,5 +1,5 @@
 // What is pointed at, and how many hulls there are and are selected.
-import { CONFIDENCE, fillOf, PALETTE } from "../../pictures/hullColors";
+import { fillOf, PALETTE } from "../../pictures/hullColors";
 import { useStage } from "../stage/context";
 import { useAlike } from "../../store/alike";
 import { useFormerLabels } from "../../store/labelChanges";
@@ -97,7 +97,6 @@ const MOST = 10;
 export function Legend() {
   const colorBy = useWorkspace((workspace) => workspace.view.colorBy);
   const bodies = useScenes(({ scene }) => scene?.view.bodies);
-  if (colorBy === "confidence") return <Scale />;
   if (colorBy === "label") return <Fills />;
   if (colorBy !== "body" || !bodies) return null;
   return (
@@ -124,20 +123,4 @@ function Fills() {
       ))}
     </ul>
   ) : null;
-}
-
-function Scale() {
-  return (
-    <div className={css.legend} aria-label="Colours of confidence">
-      <div className={css.scale} style={{ background: `linear-gradient(to right, ${CONFIDENCE.join(",")})` }} />
-      <div className={css.scaleEnds}>
-        <span>0 %</span>
-        <span>unsure · sure</span>
-        <span>100 %</span>
-      </div>
-      <span>
-        <Swatch color="var(--hull-unlabelled)" /> no label
-      </span>
-    </div>
-  );
 }

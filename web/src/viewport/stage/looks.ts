@@ -37,11 +37,10 @@ function changedHulls({ edit }: Scene): ReadonlySet<string> | null {
   return changed.size ? changed : null;
 }
 
-/** The hulls that the last edit of all labels changed; none where these are all, so that none stands out. */
+/** The hulls to which the last edit of all labels gave another one. */
 function relabelledHulls({ asset, hulls, edit }: Scene): string[] {
   const found = useWorkspace.getState().stage === "label" && !edit ? labelChangesOf(asset) : null;
-  const places = found ? [...found.new, ...found.changed] : [];
-  return places.length < hulls.length ? places.flatMap((k) => hulls[k]?.name ?? []) : [];
+  return (found?.changed ?? []).flatMap((k) => hulls[k]?.name ?? []);
 }
 
 /** The hulls that a rule or an extractor points out on this asset, and what was made of them. */
