@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 
-from meshforge.project import Project
-from meshforge.studio.wire.family import GIVEN
+from meshforge.project import GIVEN, Project
 from meshforge.symbolic import Label
 from tests.e2e.legs import HULLS, LABELS, four_legged
 from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
@@ -74,9 +73,9 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert [(one["asset"], one["new"]) for one in found["assets"]] == [
             (f"t{k}.obj", list(range(5))) for k in (1, 2, 3)
         ]
-        cards = studio.cards(lambda cards: all(-1 not in card["sureness"] for card in cards.values()))
-        assert cards[FIRST]["sureness"] == [GIVEN] * 5
-        others = [card["sureness"] for card in cards.values()][1:]
+        cards = studio.cards(lambda cards: all(-1 not in card["confidence"] for card in cards.values()))
+        assert cards[FIRST]["confidence"] == [GIVEN] * 5
+        others = [card["confidence"] for card in cards.values()][1:]
         assert all(top == GIVEN and min(legs) < 50 for top, *legs in others), "only tops have a name that says a label"
         hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
         assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
@@ -119,8 +118,8 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
 def _given(studio: Studio, asset: str) -> int:
     """How many labels of an asset are a person's, once that is shown."""
     cards = studio.cards(lambda cards: all(place >= 0 for place in cards[asset]["labels"]))
-    sureness: list[int] = cards[asset]["sureness"]
-    return sureness.count(GIVEN)
+    confidence: list[int] = cards[asset]["confidence"]
+    return confidence.count(GIVEN)
 
 
 def test_one_that_is_stopped_changes_nothing(studio: Studio) -> None:

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator
 
-from meshforge.project import Project
-from meshforge.studio.wire.family import GIVEN
+from meshforge.project import GIVEN, Project
 from meshforge.symbolic import Label
 from tests.e2e.hand import Hand
 from tests.e2e.labelling import point_brush
@@ -122,7 +121,7 @@ def _label_one(person: Hand, studio: Studio) -> None:
         person.press(str(k))
     person.page.get_by_placeholder(re.compile("^Search 5 hulls")).fill("")
     go_to(person, FIRST)
-    studio.cards(lambda cards: cards[FIRST]["sureness"] == [GIVEN] * len(HULLS))
+    studio.cards(lambda cards: cards[FIRST]["confidence"] == [GIVEN] * len(HULLS))
     person.sees("3 assets have no label: label all hulls.")
     person.sees("names of 3 hulls, 5 labels on 1 asset")
 

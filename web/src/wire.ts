@@ -690,8 +690,8 @@ export interface CandidateView {
  * One asset in the gallery.
  *
  * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
- * place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; sureness: for each, the percentage that its label is
- * sure to, below 50 where it is unsure, or one of `NO_LABEL` and `GIVEN`.
+ * place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; confidence: as in `AssetStatus`, below 50 where it is
+ * unsure.
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
  * changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -703,7 +703,7 @@ export interface Card {
   asset: string;
   hulls: number | null;
   labels: number[];
-  sureness: number[];
+  confidence: number[];
   demonstrated: boolean;
   output: "none" | "edited" | "unchanged" | "failed";
   after: number | null;

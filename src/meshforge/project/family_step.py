@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge.common import pluralize, quote_path
 from meshforge.labels import label_command
 from meshforge.project.next_step import NextStep, StepKind
-from meshforge.project.status import AssetStatus, FamilyState
+from meshforge.project.status import GIVEN, AssetStatus, FamilyState
 from meshforge.store import Layout
 
 
@@ -104,8 +104,8 @@ def _complete_labels(state: FamilyState) -> NextStep | None:
 
 
 def _has_whole(state: FamilyState) -> bool:
-    """Whether people or files labelled all hulls of an asset, so that its labels can be propagated."""
-    return any(asset.hulls and asset.given == asset.hulls for asset in state.assets)
+    """Whether people, files or names labelled all hulls of an asset, so that its labels can be propagated."""
+    return any(asset.hulls and asset.confidence.count(GIVEN) == asset.hulls for asset in state.assets)
 
 
 def _propagate(state: FamilyState, why: str) -> NextStep:
@@ -127,7 +127,7 @@ def _label_rest(state: FamilyState) -> NextStep | None:
 
 
 def _check_labels(state: FamilyState) -> NextStep | None:
-    unsure = sum(len(asset.unsure) for asset in state.assets)
+    unsure = sum(asset.unsure for asset in state.assets)
     if not unsure:
         return None
     last = state.propagation
@@ -135,7 +135,7 @@ def _check_labels(state: FamilyState) -> NextStep | None:
         return _propagate(state, f"{pluralize(last.unused, 'label')} of yours not used yet")
     are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
     best = next((asset for asset in state.assets if last and asset.id == last.next), None)
-    if best and len(best.names) - best.given < unsure:
+    if best and len(best.names) - best.confidence.count(GIVEN) < unsure:
         return _step(state, "check-labels", f"{are}: label {best.id} next.", "studio", best.id)
     first = next(asset.id for asset in state.assets if asset.unsure)
     return _step(state, "check-labels", f"{are}: look at them, first on {first}.", "studio", first)

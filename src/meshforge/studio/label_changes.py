@@ -3,11 +3,10 @@ what the history says of them: what the last edit of all labels changed, and how
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
-from meshforge.project import PropagationState
+from meshforge.project import GIVEN, NO_LABEL, PropagationState
 from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.pages import PageState
@@ -18,19 +17,9 @@ from meshforge.symbolic import NO_PART, Label, read_labels
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
 HullNames = Mapping[str, Sequence[str]]
 """The names of the hulls of each asset, in order."""
-LABEL_ALL = "label-all"
-"""The kind of the edit that labels all hulls."""
 
 HullLabels = Mapping[str, Label]
 """Labels by the names of hulls."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Propagation:
-    """Labels were propagated when so many entries were done; best: the asset that would help most then."""
-
-    entries: int
-    best: str | None
 
 
 class LabelChanges:
@@ -60,15 +49,16 @@ class LabelChanges:
         """Return what is known of the last time that all hulls were labelled; None where there was none, or where it is
         undone."""
         done = self._history.entries
-        used = self._last_propagation(done)
-        if used is None:
+        found = self._last_run(done)
+        if found is None:
             return None
-        is_open = any(card.asset == used.best and any(sure != wire.GIVEN for sure in card.sureness) for card in cards)
-        edits = [entry.edit for entry in done[used.entries :] if entry.edit.get("kind") == "label"]
+        used, best = found
+        is_open = any(card.asset == best and any(sure != GIVEN for sure in card.confidence) for card in cards)
+        edits = [entry.edit for entry in done[used:] if entry.edit.get("kind") == "label"]
         rows = ((asset, hulls, edit["label"]) for edit in edits for asset, hulls in edit["hulls"].items())
         given = {(asset, hull): label for asset, hulls, label in rows for hull in hulls}
         unused = sum(label is not None for label in given.values())
-        return PropagationState(unused=unused, next=used.best if is_open else None)
+        return PropagationState(unused=unused, next=best if is_open else None)
 
     def _build_change(self, entry: HistoryEntry, names: HullNames) -> LabelUpdate:
         found = (
@@ -78,15 +68,16 @@ class LabelChanges:
         )
         return LabelUpdate(way=entry.edit["kind"], assets=tuple(filter(None, found)))
 
-    def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
-        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == LABEL_ALL), None)
+    def _last_run(self, done: tuple[HistoryEntry, ...]) -> tuple[int, str | None] | None:
+        """How many entries were done when all hulls were labelled last, and the asset that would help most then."""
+        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "label-all"), None)
         edit = {} if last is None else done[last].edit
-        found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))
+        found = None if last is None else (min(edit.get("used", last), last), edit.get("next"))
         if self._no_change is None:
             return found
         entries, best = self._no_change
-        is_newer = found is None or len(entries) > found.entries
-        return _Propagation(len(entries), best) if is_newer and done[: len(entries)] == entries else found
+        is_newer = found is None or len(entries) > found[0]
+        return (len(entries), best) if is_newer and done[: len(entries)] == entries else found
 
     def _read_state(self, digest: str | None) -> HullLabels:
         """What a labels file held; empty where there was none, or where the history was damaged."""
@@ -151,12 +142,13 @@ def relabel_card(
     if len(names) != len(card.labels):
         return card
     at = {name: place for place, name in enumerate(names)}
-    known: dict[str | None, int] = {None: wire.NO_LABEL, NO_PART: wire.NO_PART, **places}
-    new = {at[hull]: known[label] for hull, label in labels.items() if hull in at and label in known}
-    sure = {place: wire.NO_LABEL if label == wire.NO_LABEL else wire.GIVEN for place, label in new.items()}
+    known = {**places, NO_PART: wire.NO_PART}
+    wanted = {hull: label for hull, label in labels.items() if hull in at and (label is None or label in known)}
+    new = {at[hull]: NO_LABEL if label is None else known[label] for hull, label in wanted.items()}
+    sure = {place: NO_LABEL if label == NO_LABEL else GIVEN for place, label in new.items()}
     return card.model_copy(
         update={
             "labels": tuple(new.get(place, label) for place, label in enumerate(card.labels)),
-            "sureness": tuple(sure.get(place, percent) for place, percent in enumerate(card.sureness)),
+            "confidence": tuple(sure.get(place, percent) for place, percent in enumerate(card.confidence)),
         }
     )

@@ -44,7 +44,7 @@ def test_labels_outside_the_vocabulary_come_after_it_by_alphabet() -> None:
 
 def test_unsure_labels_are_hatched_and_guessed_ones_dotted_on_a_paler_ground() -> None:
     coloring = color_hulls(table(), "label")
-    assert (coloring.hatched, coloring.dotted) == ({3}, set())
+    assert coloring.hatched == {3} and not coloring.dotted
     assert coloring.legend[-1].name == "hatched: unsure"
     guessed = color_hulls(table().with_labels({"leg0": Label("leg", 0.9, "propagated")}), "label")
     place = table().index["leg0"]

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.project import Project, PropagationState
+from meshforge.project import GIVEN, Project, PropagationState
 from meshforge.store import History
 from meshforge.studio.edits.assets import LabelHulls, RenameLabel
 from meshforge.studio.edits.base import Edit, make_edit
-from meshforge.studio.label_changes import LABEL_ALL, LabelChanges
-from meshforge.studio.wire.family import GIVEN, Card
+from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.wire.family import Card
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
@@ -44,7 +44,7 @@ def carry(project: Project, history: History, best: str | None = "t1.obj") -> No
 
 
 def recorded(project: Project, history: History, used: int, best: str | None) -> AbstractContextManager[int]:
-    edit = {"kind": LABEL_ALL, "used": used, "next": best}
+    edit = {"kind": "label-all", "used": used, "next": best}
     return history.record("hulls labelled", edit, [project.folder / "labels"])
 
 
@@ -55,7 +55,7 @@ def labels(project: Project) -> dict[str, bytes]:
 def cards(project: Project) -> list[Card]:
     rows = {asset: project.labels(asset).labels for asset in ASSETS}
     given = {asset: {hull for hull, one in row.items() if one.source in GIVEN_SOURCES} for asset, row in rows.items()}
-    return [Card(asset=asset, sureness=tuple(GIVEN if n in given[asset] else 60 for n in NAMES)) for asset in ASSETS]
+    return [Card(asset=asset, confidence=tuple(GIVEN if n in given[asset] else 60 for n in NAMES)) for asset in ASSETS]
 
 
 def carried(project: Project, history: History) -> PropagationState | None:

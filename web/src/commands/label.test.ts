@@ -87,14 +87,14 @@ describe("P", () => {
     await press("P");
     expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Label the hulls of one asset first."]);
     expect(started).not.toHaveBeenCalled();
-    useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], sureness: [101, -1] }) } });
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
     await press("P");
     expect(started).toHaveBeenCalledWith({ kind: "label" });
   });
 });
 
 describe("hulls whose label nobody gave", () => {
-  const unsure = { cards: { a: sampleCard({ asset: "a", labels: [-1, 0], sureness: [-1, 30] }) } };
+  const unsure = { cards: { a: sampleCard({ asset: "a", labels: [-1, 0], confidence: [-1, 30] }) } };
 
   it("have keys in this stage only", () => {
     useProject.setState(unsure);
@@ -109,7 +109,7 @@ describe("hulls whose label nobody gave", () => {
     expect(command("Enter")).toBeUndefined();
     select(["x", "y"]);
     expect(command("Enter")?.id).toBe("label-right");
-    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [-1, 0], sureness: [-1, 101] }) } });
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [-1, 0], confidence: [-1, 101] }) } });
     expect(command("Enter")).toBeUndefined();
     useWorkspace.setState({ asset: "b" });
     expect(command("Enter")).toBeUndefined();

@@ -7,7 +7,7 @@ const card: Card = {
   asset: "a.urdf",
   hulls: 3,
   labels: [0, -1, 0],
-  sureness: [30, 101],
+  confidence: [30, 101],
   demonstrated: true,
   output: "edited",
   after: 2,

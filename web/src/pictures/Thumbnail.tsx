@@ -24,7 +24,7 @@ interface ThumbnailProps {
 export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
-  const sureness = useProject(({ cards }) => cards[asset]?.sureness);
+  const confidence = useProject(({ cards }) => cards[asset]?.confidence);
   const palette = useProject(({ project }) => project.vocabulary.map((entry) => entry.color).join(" "));
   const run = useProject(({ outcome }) => outcome?.number ?? 0); // labels may turn it otherwise in the next one
   const marked = useMemo(() => (highlight ? new Set(highlight) : null), [highlight]);
@@ -39,10 +39,10 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned,
   );
   const fill = useCallback(
     (k: number): Fill => {
-      const sure = marked || of === "output" ? UNLABELLED : (sureness?.[k] ?? UNLABELLED);
+      const sure = marked || of === "output" ? UNLABELLED : (confidence?.[k] ?? UNLABELLED);
       return isUnsure(sure) ? "hatched" : sure === UNLABELLED || sure === GIVEN ? "solid" : "dotted";
     },
-    [marked, of, sureness],
+    [marked, of, confidence],
   );
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;

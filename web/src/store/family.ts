@@ -11,18 +11,18 @@ type Confidence = Readonly<Record<string, ConfidenceView>>;
 /** The place of the label of a hull that has none; one that is no part has another. */
 export const UNLABELLED = -1;
 
-/** In `Card.sureness`, a label that a person, a file or a name gave; one below half is not sure. */
+/** In `Card.confidence`, a label that a person, a file or a name gave; one below half is not sure. */
 export const GIVEN = 101;
 const HALF = 50;
 export const isUnsure = (sure: number): boolean => sure !== UNLABELLED && sure < HALF;
-export const countUnsure = (card: Card): number => card.sureness.filter(isUnsure).length;
+export const countUnsure = (card: Card): number => card.confidence.filter(isUnsure).length;
 
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label === UNLABELLED).length;
 
 const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label === UNLABELLED),
-  unsure: (card) => card.sureness.some(isUnsure),
+  unsure: (card) => card.confidence.some(isUnsure),
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",
   accepted: (card) => card.review === "accepted",

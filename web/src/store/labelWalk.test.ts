@@ -10,7 +10,7 @@ import { useToasts } from "./toasts";
 import { confirmLabels, labelProgress, nextPlace, placeInWalk, queueOf, walk } from "./labelWalk";
 import { initialWorkspace, select, setLayout, useLayout, useWorkspace } from "./workspace";
 
-const card = (asset: string, labels: number[], sureness: number[]) => sampleCard({ asset, hulls: labels.length, labels, sureness });
+const card = (asset: string, labels: number[], confidence: number[]) => sampleCard({ asset, hulls: labels.length, labels, confidence });
 const cards = { a: card("a", [0, -1], [101, -1]), b: card("b", [0, 1, 1], [80, 101, 30]), c: card("c", [1], [30]) };
 const order = ["a", "b", "c"];
 const place = (asset: string, position: number, sure: number) => ({ asset, position, sure });
@@ -47,7 +47,7 @@ it("counts hulls with and without a label, and what was given and guessed", () =
 
 const hull = (name: string, label: string | null) => ({ name, label, confidence: 0.3, source: "propagated", look: label && "unsure" });
 const hulls = [hull("x", "leg"), hull("y", null), hull("z", "panel")];
-const cardQueue = (asset: string, x: number, z: number) => sampleCard({ asset, hulls: 3, labels: [0, -1, 1], sureness: [x, 101, z] });
+const cardQueue = (asset: string, x: number, z: number) => sampleCard({ asset, hulls: 3, labels: [0, -1, 1], confidence: [x, 101, z] });
 let sent: AnyEdit[] = [];
 
 /** Shows the asset in hand, as the page does once it was opened. */

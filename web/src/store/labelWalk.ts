@@ -22,7 +22,7 @@ type Cards = Readonly<Record<string, Card>>;
 export function queueOf(cards: Cards, order: readonly string[]): readonly Place[] {
   const rows: Place[][] = [];
   for (const asset of order) {
-    cards[asset]?.sureness.forEach((sure, position) => sure !== GIVEN && (rows[sure - UNLABELLED] ??= []).push({ asset, position, sure }));
+    cards[asset]?.confidence.forEach((sure, position) => sure !== GIVEN && (rows[sure - UNLABELLED] ??= []).push({ asset, position, sure }));
   }
   return rows.flat();
 }
@@ -39,13 +39,13 @@ export function nextPlace(queue: readonly Place[], order: readonly string[], fro
 /** Hulls of the family: all, with a label, those of which it is unsure, guessed or given, and on how many assets it is given. */
 export const labelProgress = oncePerFamily((cards) => {
   const sum = { hulls: 0, labelled: 0, unsure: 0, guessed: 0, given: 0, assets: 0 };
-  for (const { labels, sureness } of cards) {
-    const given = sureness.filter((sure) => sure === GIVEN).length;
-    const unsure = sureness.filter(isUnsure).length;
+  for (const { labels, confidence } of cards) {
+    const given = confidence.filter((sure) => sure === GIVEN).length;
+    const unsure = confidence.filter(isUnsure).length;
     sum.hulls += labels.length;
     sum.labelled += labels.filter((label) => label !== UNLABELLED).length;
     sum.unsure += unsure;
-    sum.guessed += sureness.filter((sure) => sure !== UNLABELLED).length - unsure - given;
+    sum.guessed += confidence.filter((sure) => sure !== UNLABELLED).length - unsure - given;
     sum.given += given;
     sum.assets += given ? 1 : 0;
   }
@@ -127,7 +127,7 @@ function placeInHand(by: 1 | -1): Place | null {
   if (asset === null || scene?.asset !== asset || scene.parts) return null;
   const isSelected = (hull: { name: string }) => selection.has(hull.name);
   const position = by === 1 ? scene.view.hulls.findLastIndex(isSelected) : scene.view.hulls.findIndex(isSelected);
-  const sure = useProject.getState().cards[asset]?.sureness[position] ?? GIVEN;
+  const sure = useProject.getState().cards[asset]?.confidence[position] ?? GIVEN;
   return sure === GIVEN ? null : { asset, position, sure };
 }
 

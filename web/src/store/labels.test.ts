@@ -18,7 +18,7 @@ beforeEach(() => {
   sent = [];
   vi.useFakeTimers();
   const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1, is_class: false }));
-  const cards = Object.fromEntries(["a", "b"].map((asset) => [asset, sampleCard({ asset, labels: [0, -1, 1], sureness: [30, -1, 80] })]));
+  const cards = Object.fromEntries(["a", "b"].map((asset) => [asset, sampleCard({ asset, labels: [0, -1, 1], confidence: [30, -1, 80] })]));
   useProject.setState(
     { ...emptyProject, order: ["a", "b"], cards, project: { ...emptyProject.project, vocabulary } },
     true,

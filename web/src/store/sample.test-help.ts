@@ -5,7 +5,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   asset: "a",
   hulls: 4,
   labels: [],
-  sureness: [],
+  confidence: [],
   demonstrated: false,
   output: "none",
   after: null,

@@ -32,7 +32,6 @@ from meshforge.project import (
     read_preparation_plan,
 )
 from meshforge.store import ConflictError, Layout, VlmSettings
-from meshforge.studio.label_changes import LABEL_ALL
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine, RebuildJob
@@ -141,7 +140,7 @@ def start_label(session: Session) -> Job:
 
             @contextmanager
             def record(best: str | None) -> Iterator[None]:
-                edit = {"kind": LABEL_ALL, "used": used, "next": best}
+                edit = {"kind": "label-all", "used": used, "next": best}
                 block.enter_context(session.record("hulls labelled", edit, files, uuid4().hex))
                 if _preparation_digests(session.project) != began:
                     raise ConflictError("assets or their hulls were changed meanwhile", remedy="Label again.")

@@ -8,6 +8,7 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.labels import Endpoint, check_vlm_settings
 from meshforge.language import BaseExtractor, Is, Orient, explain, show_label
 from meshforge.project import (
+    NO_LABEL,
     AssetStatus,
     FamilyState,
     LastRun,
@@ -17,7 +18,7 @@ from meshforge.project import (
     PropagationState,
     SignOffState,
 )
-from meshforge.rendering import label_color, look_of
+from meshforge.rendering import label_color
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire import family as wire
@@ -153,7 +154,7 @@ def _list_feedback(project: Project) -> Iterator[wire.AnswerView]:
 
 
 _SHARED = (
-    *("hulls", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
+    *("hulls", "confidence", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
     *("manual_edits", "sources", "prepared"),
 )
 """What a card has as the status of an asset has it."""
@@ -174,7 +175,6 @@ def build_card(
     return wire.Card(
         asset=status.id,
         labels=tuple(_place_of(label, places) for label in status.labels),
-        sureness=_measure_sureness(status),
         after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
         note=status.review_note,
         picture=picture,
@@ -187,22 +187,8 @@ def build_card(
 
 def _place_of(label: Label | None, places: Mapping[str, int]) -> int:
     if label is None:
-        return wire.NO_LABEL
-    return wire.NO_PART if label.name == NO_PART else places.get(label.name, wire.NO_LABEL)
-
-
-def _measure_sureness(status: AssetStatus) -> tuple[int, ...]:
-    """What `Card.sureness` has; a label that was given to another geometry is not sure at all."""
-    percent = (wire.NO_LABEL if not label else _percent_of(label) for label in status.labels)
-    lost = set(status.doubtful)
-    return tuple(min(sure, 0) if name in lost else sure for name, sure in zip(status.names, percent, strict=True))
-
-
-def _percent_of(label: Label) -> int:
-    return wire.GIVEN if look_of(label) == "given" else int(100 * label.confidence + _ROUNDING)
-
-
-_ROUNDING = 1e-6  # 0.29 is 29 percent, and what is below one half stays below it
+        return NO_LABEL
+    return wire.NO_PART if label.name == NO_PART else places.get(label.name, NO_LABEL)
 
 
 def model_of(project: Project) -> Model | None:

@@ -8,7 +8,6 @@ from meshforge.geometry import Shape
 from meshforge.rendering import LabelLook, look_of
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.program import ActionView
-from meshforge.symbolic import Label
 
 PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
 
@@ -21,10 +20,6 @@ def _kind_of_primitive(shape: Shape) -> str | None:
     return shape.kind if shape.is_primitive else None
 
 
-def _look_of(label: Label | None) -> LabelLook | None:
-    return look_of(label) if label else None
-
-
 class HullView(Wire):
     """A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
     primitive: its kind if it is one; source: who gave the label; look: whether it was given, null for no label; parent:
@@ -35,7 +30,9 @@ class HullView(Wire):
     label: str | None = None
     confidence: float | None = None
     source: str | None = None
-    look: Annotated[LabelLook | None, Field(validation_alias="annotation"), BeforeValidator(_look_of)] = None
+    look: Annotated[
+        LabelLook | None, Field(validation_alias="annotation"), BeforeValidator(lambda label: label and look_of(label))
+    ]
     volume: float = 0.0
     vertices: Annotated[int, BeforeValidator(len)]
     faces: Annotated[int, BeforeValidator(len)]

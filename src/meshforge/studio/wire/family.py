@@ -14,17 +14,16 @@ from meshforge.studio.wire.requests import HullOfAsset
 Verdict = Literal["accepted", "wrong"]
 
 
-NO_LABEL, NO_PART, GIVEN = -1, -2, 101
-"""In `Card`: of a hull without a label, and of one that is none of the parts; of a label that a person, a file or a
-name gave."""
+NO_PART = -2
+"""In `Card.labels`, of a hull that is none of the parts."""
 
 
 class Card(Wire):
     """One asset in the gallery.
 
     hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
-    place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; sureness: for each, the percentage that its label is
-    sure to, below 50 where it is unsure, or one of `NO_LABEL` and `GIVEN`.
+    place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; confidence: as in `AssetStatus`, below 50 where it is
+    unsure.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -36,7 +35,7 @@ class Card(Wire):
     asset: str
     hulls: int | None = None
     labels: tuple[int, ...] = ()
-    sureness: tuple[int, ...] = ()
+    confidence: tuple[int, ...] = ()
     demonstrated: bool = False
     output: OutputState = "none"
     after: int | None = None
