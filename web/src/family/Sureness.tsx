@@ -9,7 +9,7 @@ import { openAsset } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Section } from "../ui/Section";
 import type { AssessmentView, Reason } from "../wire";
-import css from "./confidence.module.css";
+import css from "./sureness.module.css";
 
 /** `Signed off 71 of 75`, as a bar and in words, with the way to those that are not. */
 export function SignOff() {
