@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import time
 from collections.abc import Iterator
@@ -43,6 +44,10 @@ def folder(studio: Studio) -> Path:
 
 def labels(studio: Studio) -> dict[str, bytes]:
     return tree(folder(studio) / "labels")
+
+
+def kept(project: Project) -> dict[str, bytes]:
+    return {name: text for name, text in tree(project.folder).items() if not name.startswith(".meshforge")}
 
 
 def carry(studio: Studio, page: Page) -> dict[str, Any]:
@@ -145,6 +150,21 @@ def test_hulls_that_were_cut_meanwhile_are_told_and_nothing_is_written(studio: S
         assert "changed meanwhile" in over["message"]
         assert set(labels(studio)) == {f"{FIRST}.json"}
         assert ok(studio.post("/api/undo"))["message"] == f"top of {THIRD} cut in two"
+
+
+def test_a_file_beside_one_asset_gives_the_vocabulary_and_all_labels_with_one_step(tmp_path: Path) -> None:
+    project = four_legged(tmp_path, words=())
+    text = json.dumps({"hulls": {name: "plate" if name == "top" else "post" for name in HULLS}})
+    (tmp_path / "assets" / FIRST.replace(".obj", ".labels.json")).write_text(text)
+    with opened(tmp_path, project.folder) as studio, studio.page() as page:
+        before = kept(project)
+        studio.settled()
+        assert ok(studio.get("/api/labels/sources"))["files"] == 1
+        job = carry(studio, page)
+        assert "All labels by source: propagation 15, files 5." in job["message"], job
+        assert {one.name for one in Project.open(project.folder).labels(THIRD).labels.values()} == {"plate", "post"}
+        assert ok(studio.post("/api/undo"))["message"] == "hulls labelled"
+        assert kept(project) == before
 
 
 @pytest.mark.parametrize("seconds", [0.0, 0.6, 1.2])

@@ -38,7 +38,7 @@ def _label_by_names(person: Hand) -> None:
     go_to(person, "stool.obj")
     person.sees("names of 2 hulls")
     person.click("Label all hulls")
-    person.sees("Every hull is labelled")
+    person.sees("2 given")
 
 
 def _cut_in_two(person: Hand) -> None:

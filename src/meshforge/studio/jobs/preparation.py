@@ -192,7 +192,7 @@ def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
         yield f"{what}: {join_names(named, most=3)}."
     for one, other in result.alike:
         yield f"{one} and {other} are on hulls that look alike: are they one part?"
-    yield from result.notes
+    yield from (f"{note}." for note in result.notes)
 
 
 def start_forecast(session: Session, request: ForecastJob) -> Job:

@@ -22,17 +22,17 @@ export function LabelPanel() {
   );
 }
 
-/** Hulls whose label nobody gave, one after the other, and the one that is selected. */
+/** How many labels are given, guessed and unsure; hulls of which nobody gave it, one after the other, and the one selected. */
 function Walk() {
-  const { hulls, labelled, unsure, guessed } = labelProgress(useProject((state) => state.cards));
+  const { hulls, labelled, given, guessed, unsure } = labelProgress(useProject((state) => state.cards));
   const inHand = useHullInHand();
-  if (!unsure && !guessed) return null;
-  const next = (
+  if (!hulls) return null;
+  const next = given < hulls && (
     <Button icon={ChevronRight} onClick={() => void walk()} tip="The hull whose label is least sure, then the next" keys="N">
       Next
     </Button>
   );
-  const counts = [[unsure, "unsure"], [guessed, "guessed"], [hulls - labelled, "without a label"]] as const;
+  const counts = [[given, "given"], [guessed, "guessed"], [unsure, "unsure"], [hulls - labelled, "without a label"]] as const;
   const title = counts.flatMap(([count, what]) => (count ? `${count.toLocaleString("en-GB")} ${what}` : [])).join(", ");
   return (
     <Section title={title} aside={next}>
