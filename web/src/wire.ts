@@ -996,10 +996,8 @@ export interface NextStep {
   kind:
     | "wait"
     | "decompose"
-    | "label-files"
-    | "label-names"
+    | "label-all"
     | "label"
-    | "propagate"
     | "check-labels"
     | "demonstrate"
     | "learn"

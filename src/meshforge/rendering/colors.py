@@ -35,7 +35,6 @@ UNSURE = 0.5
 LabelLook = Literal["given", "guessed", "unsure"]
 _GIVEN_FROM = dict.fromkeys(GIVEN_SOURCES | CERTAIN_SOURCES, UNSURE) | {"name": 0.7, "edit": 1.0}
 """From which confidence on a label of a source is given; a name of a hull that holds the very word has 0.7."""
-_PALER = 0.5  # how much white is in the colour of a guessed label
 _CLEAR = 0.3  # in red, green and blue: hulls in contact should differ by so much
 _USED = 0.2  # by how much more a colour must differ for each use that it had already
 _DIMMER = 0.9  # and so much darker it is each time
@@ -81,10 +80,10 @@ class HullColors:
     dotted: frozenset[int] = frozenset()
 
 
-def look_of(label: Label) -> LabelLook:
+def look_of(label: Label | None) -> LabelLook | None:
     """Return whether a label is given, by a person, a file or a name, or else guessed, or not even sure."""
-    if label.confidence < UNSURE:
-        return "unsure"
+    if label is None or label.confidence < UNSURE:
+        return "unsure" if label else None
     return "given" if label.confidence >= _GIVEN_FROM.get(label.source, np.inf) else "guessed"
 
 
@@ -103,13 +102,12 @@ def color_hulls(
         case "label":
             others = {h.label for h in mesh.hulls if h.label} - set(vocabulary)
             coloring = _color_by_group(mesh, [*vocabulary, *sorted(others)], lambda hull: hull.label)
-            looks = [look_of(h.annotation) if h.annotation else None for h in mesh.hulls]
+            looks = [look_of(h.annotation) for h in mesh.hulls]
             marks = {"dotted": "guessed", "hatched": "unsure"}
             found = {m: frozenset(k for k, look in enumerate(looks) if look == marks[m]) for m in marks}
             notes = tuple(LegendEntry("", f"{m}: {marks[m]}", len(found[m])) for m in marks if found[m])
             colors = coloring.colors.copy()
-            colors[sorted(found["dotted"])] *= 1 - _PALER
-            colors[sorted(found["dotted"])] += _PALER
+            colors[sorted(found["dotted"])] = (1 + colors[sorted(found["dotted"])]) / 2  # half white
             return HullColors(colors, coloring.legend + notes, **found)
         case "body":
             return _color_by_group(mesh, list(dict.fromkeys(h.body for h in mesh.hulls)), lambda hull: hull.body)

@@ -18,9 +18,6 @@ _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
 HullNames = Mapping[str, Sequence[str]]
 """The names of the hulls of each asset, in order."""
 
-HullLabels = Mapping[str, Label]
-"""Labels by the names of hulls."""
-
 
 class LabelChanges:
     """Reads the history of labels; the result for the last entry is cached."""
@@ -79,7 +76,7 @@ class LabelChanges:
         is_newer = found is None or len(entries) > found[0]
         return (len(entries), best) if is_newer and done[: len(entries)] == entries else found
 
-    def _read_state(self, digest: str | None) -> HullLabels:
+    def _read_state(self, digest: str | None) -> Mapping[str, Label]:
         """What a labels file held; empty where there was none, or where the history was damaged."""
         try:
             return read_labels(self._history.path_of(digest)).labels if digest else {}
@@ -92,7 +89,9 @@ def _labels_files(names: Iterable[str]) -> dict[str, str]:
     return {asset: name for name in names if (asset := Layout.labels.match(name)) is not None}
 
 
-def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> AssetLabelUpdate | None:
+def diff_labels(
+    asset: str, names: Sequence[str], before: Mapping[str, Label], after: Mapping[str, Label]
+) -> AssetLabelUpdate | None:
     """Return which hulls got another label, None where none did; names: of all hulls, in order."""
     pairs = [(k, before.get(name), after.get(name)) for k, name in enumerate(names)]
     new = tuple(k for k, was, now in pairs if now and not was)

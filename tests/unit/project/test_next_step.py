@@ -64,13 +64,13 @@ def test_the_steps_follow_one_another() -> None:
 def test_labels_that_are_there_already_are_taken_first() -> None:
     files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
     step = choose(BARE, replace(BARE, id="b"), vocabulary=(), find_offers=lambda: files)
-    assert step.text == "Labels files lie beside 2 assets: take their labels."
-    assert (step.kind, step.command) == ("label-files", "meshforge label p")
+    assert step.text == "Labels files lie beside 2 assets: label all hulls."
+    assert (step.kind, step.command) == ("label-all", "meshforge label p")
     step = choose(BARE, find_offers=lambda: names)
-    assert step.text == "The names of 1 hull contain a label: take their labels."
+    assert step.text == "The names of 1 hull contain a label: label all hulls."
     assert choose(SHOWN, find_offers=lambda: files).kind == "learn"
     assert choose(BARE, find_offers=lambda: files, has_program=True).kind == "apply", "it asks for no labels"
-    assert choose(BARE, find_offers=lambda: files, has_program=True, asks_labels=True).kind == "label-files"
+    assert choose(BARE, find_offers=lambda: files, has_program=True, asks_labels=True).kind == "label-all"
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
@@ -113,7 +113,7 @@ def test_a_program_that_cannot_be_applied_is_fixed_before_anything_else_is_done_
 def test_labels_are_propagated_from_an_asset_that_people_or_files_labelled_as_a_whole() -> None:
     whole = asset("w")
     step = choose(BARE, whole)
-    assert (step.kind, step.text) == ("propagate", "a has no label: label all hulls.")
+    assert (step.kind, step.text) == ("label-all", "a has no label: label all hulls.")
     assert choose(BARE, replace(BARE, id="b"), whole).text.startswith("2 assets have no label")
     assert choose(BARE, replace(BEGUN, id="b")).kind == "label", "none is whole"
     assert choose(BARE, asset("w", "hm")).kind == "label", "a machine labelled it"

@@ -57,12 +57,10 @@ def test_unsure_labels_are_hatched_and_guessed_ones_dotted_on_a_paler_ground() -
     [
         ("user", 1.0, "given"),
         ("file", 0.6, "given"),
-        ("file", 0.4, "unsure"),
         ("step", 1.0, "given"),
         ("name", 0.7, "given"),  # its very word
         ("name", 0.6, "guessed"),  # of its body
         ("edit", 1.0, "given"),
-        ("edit", 0.9, "guessed"),
         ("propagated", 1.0, "guessed"),
         ("vlm", 0.49, "unsure"),
     ],

@@ -12,10 +12,8 @@ export type StageName = (typeof STAGES)[number];
 export const STAGE_OF: Readonly<Record<NextStep["kind"], StageName>> = {
   wait: "label",
   decompose: "label",
-  "label-files": "label",
-  "label-names": "label",
+  "label-all": "label",
   label: "label",
-  propagate: "label",
   "check-labels": "label",
   demonstrate: "demonstrate",
   learn: "learn",

@@ -212,7 +212,7 @@ def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, s
         entries.append(_LegendRow(None, "", "nothing is labelled: each hull has its own colour"))
     elif before[None] or after[None]:
         entries.append(_LegendRow.of("no label", UNLABELLED, before[None], after[None]))
-    looks = {look_of(hull.annotation) for mesh in meshes for hull in mesh.hulls if hull.annotation}
+    looks = {look_of(hull.annotation) for mesh in meshes for hull in mesh.hulls}
     marks = {"guessed": "dotted: a guessed label", "unsure": "hatched: an unsure label"}
     entries += [_LegendRow(None, "", text) for look, text in marks.items() if look in looks]
     if blamed:

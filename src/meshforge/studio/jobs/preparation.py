@@ -179,11 +179,9 @@ def _preparation_digests(project: Project) -> dict[str, str | None]:
 def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
     """What was done, from which sources all labels are now, and what these disagree about, a sentence each."""
     taken, unsure = (sum(getattr(one, name) for one in result.outcomes) for name in ("taken", "unsure"))
-    if taken:
-        assets = pluralize(sum(outcome.taken > 0 for outcome in result.outcomes), "asset")
-        yield f"{pluralize(taken, 'label')} on {assets}; {unsure or 'none'} unsure."
-    else:
-        yield "Every label stays as it is."
+    assets = pluralize(sum(outcome.taken > 0 for outcome in result.outcomes), "asset")
+    new = f"{pluralize(taken, 'label')} on {assets}" if taken else "Every label stays as it is"
+    yield f"{new}; {unsure or 'none'} unsure."
     shares = [f"{SOURCE_WORDS[one.source]} {one.sure + one.likely + one.unsure:,}" for one in tally.shares]
     yield f"All labels by source: {', '.join(shares)}."
     if found := tally.contradictions:

@@ -30,9 +30,7 @@ class HullView(Wire):
     label: str | None = None
     confidence: float | None = None
     source: str | None = None
-    look: Annotated[
-        LabelLook | None, Field(validation_alias="annotation"), BeforeValidator(lambda label: label and look_of(label))
-    ]
+    look: Annotated[LabelLook | None, Field(validation_alias="annotation"), BeforeValidator(look_of)]
     volume: float = 0.0
     vertices: Annotated[int, BeforeValidator(len)]
     faces: Annotated[int, BeforeValidator(len)]
