@@ -34,12 +34,16 @@ def visible(person: Hand, hull: str) -> bool:
 
 
 def point_brush(person: Hand, hull: str, least: int = 2) -> list[str]:
-    """Point at a hull with the brush; the hulls that a click then paints, once look-alikes had time to be outlined."""
+    """Point at a hull with the brush; the hulls that a click then paints, once its look-alikes are outlined."""
     at = person.page.evaluate("name => window.meshforgeViewport.project(name)", hull)
-    person.page.mouse.move(at["x"], at["y"])
+    name = hull.partition(" · ")[0]
+    with person.page.expect_response(
+        lambda one: one.url.endswith("/api/similar") and name in (one.request.post_data or "")
+    ):
+        person.page.mouse.move(at["x"], at["y"])
     with suppress(PlaywrightTimeout):  # there may be none
         person.page.wait_for_function(
-            "count => window.meshforgeViewport.toPaint().length >= count", arg=least, timeout=2000
+            "count => window.meshforgeViewport.toPaint().length >= count", arg=least, timeout=1500
         )
     found: list[str] = person.page.evaluate("window.meshforgeViewport.toPaint()")
     return found

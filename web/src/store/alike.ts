@@ -38,25 +38,30 @@ export function followBrush(): () => void {
   };
   const stops = [
     useWorkspace.subscribe((now, before) => (now.hover !== before.hover || now.brush !== before.brush) && look()),
-    useScenes.subscribe((now, before) => now.scene !== before.scene && look()),
+    useScenes.subscribe((now, before) => now.scene !== before.scene && useAlike.setState(({ others }) => ({ others: listFree(others) }))),
     () => clearTimeout(timer),
   ];
   return () => stops.forEach((stop) => stop());
 }
 
+/** The hulls of some that are in sight, and that no person labelled. */
+function listFree(names: readonly string[]): string[] {
+  const { hidden } = useWorkspace.getState();
+  const free = useScenes.getState().scene?.hulls.filter(({ name, source }) => !hidden.has(name) && source !== "user" && source !== "repair");
+  const known = new Set(free?.map(({ name }) => name));
+  return names.filter((name) => known.has(name));
+}
+
 async function find(hull: string): Promise<void> {
   const { asset, sheet } = useWorkspace.getState();
-  const { scene } = useScenes.getState();
   const place = sheet.length ? placeOf(hull) : asset === null ? undefined : { asset, hull };
-  if (!place || !scene || !ownHulls(new Set([hull])).length) return;
+  if (!place || !ownHulls(new Set([hull])).length) return;
   try {
     const { found } = await api.similar({ hulls: [place], assets: sheet.length ? [...sheet] : null, step: 0 });
-    const { hover, brush, hidden } = useWorkspace.getState();
-    if (hover !== hull || !brush || useScenes.getState().scene !== scene) return;
-    const alike = new Set(found.flatMap((one) => one.hulls.map((name) => (sheet.length ? sheetName(one.asset, name) : name))));
-    const isFree = ({ name, source }: { name: string; source: string | null }) =>
-      name !== hull && alike.has(name) && !hidden.has(name) && source !== "user" && source !== "repair";
-    const others = scene.hulls.filter(isFree).map(({ name }) => name);
+    const { hover, brush } = useWorkspace.getState();
+    if (hover !== hull || !brush) return;
+    const names = found.flatMap((one) => one.hulls.map((name) => (sheet.length ? sheetName(one.asset, name) : name)));
+    const others = listFree(names).filter((name) => name !== hull);
     if (others.length) useAlike.setState({ hull, others, since: performance.now() });
   } catch (error) {
     if (!(error instanceof ServerProblem)) throw error; // a click then paints the hull alone
