@@ -75,10 +75,10 @@ def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Pa
 
 
 def _show_labels(page: Page, path: Path) -> None:
-    """What propagation of the labels of one table gave, at the first hull that is unsure."""
+    """What the labels of one table gave on the others, at the hull that is least sure."""
     page.keyboard.press("Alt+1")
     page.keyboard.press("p")
-    page.get_by_text("Labels propagated").first.wait_for()
+    page.get_by_text("Hulls labelled").first.wait_for()
     page.wait_for_timeout(5000)
     page.keyboard.press("n")
     page.wait_for_timeout(3000)

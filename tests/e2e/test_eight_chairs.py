@@ -12,7 +12,7 @@ from playwright.sync_api import Browser
 
 from meshforge.formats import load
 from meshforge.language import Program
-from meshforge.project import Project
+from meshforge.project import GIVEN, Project
 from tests.e2e.chair_family import WORDS, write_chairs
 from tests.e2e.expert import Expert, volumes_of
 from tests.e2e.hand import Hand, hand, windows
@@ -27,7 +27,7 @@ Is(slat) => Delete
 Is(leg)  => Each(Merge)
 """)
 FIRST, SECOND = "chair_0.obj", "chair_1.obj"
-MOST_ACTS = 45
+MOST_ACTS = 22
 """To label eight chairs with eight labels."""
 
 
@@ -50,7 +50,7 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, brow
         before = person.actions
         label_look_alikes(person, truth, WORDS)
         acts = person.actions - before
-        studio.cards(lambda cards: all(card["given"] == card["hulls"] for card in cards.values()))
+        studio.cards(lambda cards: all(set(card["confidence"]) == {GIVEN} for card in cards.values()))
         assert {asset: labels_of(folder, asset) for asset in truth} == truth
         person.press("Escape", "Alt+2")
         expert = Expert(person, studio, source, truth, MEANT, folder)

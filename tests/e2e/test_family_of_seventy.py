@@ -100,7 +100,8 @@ def _make_project(person: Hand, source: Path, folder: Path) -> None:
 
 def _take_labels(person: Hand, studio: Studio) -> None:
     studio.settled()
-    person.reach(person.button(f"From files beside {COUNT} assets: take"))
+    person.sees(f"labels files beside {COUNT} assets")
+    person.reach(person.button("Label all hulls"))
     person.press("Enter")
     studio.cards(lambda cards: all(card["labels"] and min(card["labels"]) >= 0 for card in cards.values()))
 

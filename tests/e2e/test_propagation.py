@@ -1,23 +1,25 @@
-"""From one asset that is labelled by clicks to labels on all, in the browser: carried over, looked through, corrected,
-carried over again, and taken back."""
+"""From one asset that is labelled by clicks to labels on all, in the browser: labelled at once, walked through,
+corrected, labelled again, and taken back; and hulls painted with their look-alikes."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Browser, Locator
 
-from meshforge.project import Project
+from meshforge.project import GIVEN, Project
 from meshforge.symbolic import Label
 from tests.e2e.hand import Hand
-from tests.e2e.legs import HULLS, LABELS, WORDS, four_legged
+from tests.e2e.labelling import point_brush
+from tests.e2e.legs import HULLS, LABELS, LEGS, WORDS, four_legged
 from tests.e2e.studio import Studio
 from tests.e2e.walk import click_row, go_to, visiting
 from tests.unit.batch.families import tree
 
 FIRST, SECOND = "t0.obj", "t1.obj"
-CARRIED = "Labels propagated"
+CARRIED = "Hulls labelled"
 
 
 def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path, browser: Browser) -> None:
@@ -43,6 +45,53 @@ def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path, browser: Br
         _taken_back_and_done_again(person, labels, said)
 
 
+def test_the_walk_goes_from_the_least_sure_up_until_every_label_is_given(tmp_path: Path, browser: Browser) -> None:
+    project = four_legged(tmp_path, count=2, words=("alpha", "beta"))
+    project.set_labels(FIRST, {name: "alpha" if name == "top" else "beta" for name in HULLS})
+    with visiting(tmp_path, project, browser) as (_, person):
+        person.press("Alt+1", "p")
+        _outcome(person).wait_for()
+        sure = []
+        for left in range(len(HULLS), 0, -1):
+            person.press(*(["n"] if left == len(HULLS) else []))
+            place = person.page.get_by_text(re.compile(rf"hull 1 of {left}, [01].[0-9]+ sure"))
+            place.wait_for()
+            sure.append(float(re.findall(r"([01]\.[0-9]+) sure", place.inner_text())[0]))
+            person.press("Enter")
+        person.sees("Every label was given by you, a file or a name.")
+        assert sure == sorted(sure)
+    assert {one.source for one in project.labels(SECOND).labels.values()} == {"user"}
+
+
+@pytest.mark.parametrize("latency", [0, 300])
+def test_a_click_paints_look_alikes_and_labelling_all_at_once_sees_them(
+    tmp_path: Path, browser: Browser, latency: int
+) -> None:
+    """Also while the strokes are still on their way to the server."""
+    project = four_legged(tmp_path, words=("alpha", "beta"))
+    legs = dict.fromkeys(LEGS, Label("beta"))
+    with visiting(tmp_path, project, browser, latency=latency) as (studio, person):
+        person.press("Alt+1", "2")
+        assert set(point_brush(person, "leg_b", 4)) == set(LEGS)
+        person.hull("leg_b", "Alt")
+        studio.until(lambda hello: hello["history"]["undoable"] == 1)
+        assert project.labels(FIRST).labels == {"leg_b": Label("beta")}
+        person.press("Control+z")
+        studio.until(lambda hello: hello["history"]["undoable"] == 0)
+        assert set(point_brush(person, "leg_a", 4)) == set(LEGS)
+        person.hull("leg_a")
+        person.press("1")
+        person.hull("top")
+        person.press("p")
+        _outcome(person).wait_for()
+        assert project.labels(FIRST).labels == {**legs, "top": Label("alpha")}
+        person.sees("All that is there is used")
+        hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
+        assert (hello["project"]["carried"]["unused"], hello["history"]["undoable"]) == (0, 3)
+        found = {name: one.name for name, one in project.labels(SECOND).labels.items()}
+        assert found == {"top": "alpha", **dict.fromkeys(LEGS, "beta")}
+
+
 def _outcome(person: Hand) -> Locator:
     return person.page.get_by_role("status", name=CARRIED, exact=True)
 
@@ -54,13 +103,12 @@ def _mark(person: Hand, asset: str, text: str) -> Locator:
 def _is_told_why_not(person: Hand) -> None:
     """There is nothing to carry over yet, and the page says what is missing."""
     person.press("Alt+1")
-    assert person.button("Propagate labels").is_disabled()
+    assert person.button("Label all hulls").is_disabled()
     person.sees("Type the names of the labels first.")
     person.click(person.page.get_by_label("New labels, separated by commas"))
     person.page.keyboard.type(", ".join(WORDS))
     person.press("Enter", "Escape")
-    person.sees("Label the hulls of one asset first.")
-    assert person.button("Propagate labels").is_disabled()
+    person.sees("names of 4 hulls")
 
 
 def _label_one(person: Hand, studio: Studio) -> None:
@@ -73,9 +121,9 @@ def _label_one(person: Hand, studio: Studio) -> None:
         person.press(str(k))
     person.page.get_by_placeholder(re.compile("^Search 5 hulls")).fill("")
     go_to(person, FIRST)
-    studio.cards(lambda cards: cards[FIRST]["given"] == len(HULLS))
-    person.sees("3 assets have no label: propagate labels.")
-    person.sees("5 labels on 1 asset")
+    studio.cards(lambda cards: cards[FIRST]["confidence"] == [GIVEN] * len(HULLS))
+    person.sees("3 assets have no label: label all hulls.")
+    person.sees("names of 3 hulls, 5 labels on 1 asset")
 
 
 def _look_through(person: Hand, studio: Studio, project: Project) -> None:
@@ -95,7 +143,7 @@ def _look_through(person: Hand, studio: Studio, project: Project) -> None:
     person.press("Shift+N")
     assert _in_hand(person) not in seen, "what was said is sure"
     studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 2)
-    person.sees("2 labels not propagated yet")
+    person.sees("2 labels not used yet")
 
 
 def _in_hand(person: Hand) -> tuple[str, str]:
@@ -111,9 +159,9 @@ def _in_hand(person: Hand) -> tuple[str, str]:
 
 
 def _carry_again(person: Hand, project: Project) -> None:
-    person.click("Propagate labels again")
+    person.click("Label all hulls again")
     _outcome(person).wait_for()
-    person.sees("All your labels are propagated")
+    person.sees("All that is there is used")
     assert {name: label.name for name, label in project.labels(FIRST).labels.items()} == LABELS
 
 
@@ -122,7 +170,7 @@ def _taken_back_and_done_again(person: Hand, labels: Path, said: dict[str, bytes
     again = tree(labels)
     person.click(_outcome(person).get_by_role("button", name="Undo"))
     _outcome(person).wait_for(state="hidden")
-    person.sees("Undone: labels propagated")
+    person.sees("Undone: hulls labelled")
     assert tree(labels) == said
     person.press("Control+Shift+Z")
     _outcome(person).wait_for()

@@ -2,8 +2,6 @@
 
 export type AnyEdit =
   | LabelHulls
-  | LabelFromFiles
-  | LabelFromNames
   | SetVocabulary
   | RenameLabel
   | SetSteps
@@ -36,7 +34,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest =
-  ApplyJob | DecomposeJob | RebuildJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -98,9 +96,8 @@ export interface Everything {
   JobChanged: JobChanged;
   JobLine: JobLine;
   JobRequest: JobRequest;
-  LabelFromFiles: LabelFromFiles;
-  LabelFromNames: LabelFromNames;
   LabelHulls: LabelHulls;
+  LabelJob: LabelJob;
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
@@ -129,7 +126,6 @@ export interface Everything {
   ProjectOfFolder: ProjectOfFolder;
   ProjectOfUpload: ProjectOfUpload;
   ProjectView: ProjectView;
-  PropagateJob: PropagateJob;
   PropagationState: PropagationState;
   Reach: Reach;
   ReachChanged: ReachChanged;
@@ -274,18 +270,6 @@ export interface LabelHulls {
     [k: string]: string[];
   };
   label: string | null;
-}
-/**
- * Take over the labels files beside the assets.
- */
-export interface LabelFromFiles {
-  kind: "label-files";
-}
-/**
- * Label hulls without a label by the words in their names and in the names of their bodies.
- */
-export interface LabelFromNames {
-  kind: "label-names";
 }
 /**
  * Set the labels that hulls can have, in the order of their colours.
@@ -606,8 +590,8 @@ export interface AssetView {
 }
 /**
  * A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
- * primitive: its kind if it is one; source: who gave the label; parent: the hull of the file that a new hull inherits
- * from.
+ * primitive: its kind if it is one; source: who gave the label; look: whether it was given, null for no label; parent:
+ * the hull of the file that a new hull inherits from.
  */
 export interface HullView {
   name: string;
@@ -615,6 +599,7 @@ export interface HullView {
   label: string | null;
   confidence: number | null;
   source: string | null;
+  look: ("given" | "guessed" | "unsure") | null;
   volume: number;
   vertices: number;
   faces: number;
@@ -705,8 +690,8 @@ export interface CandidateView {
  * One asset in the gallery.
  *
  * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
- * place in the vocabulary, -1 for none, -2 for one that is none of the parts; unsure: positions of hulls whose label
- * is not sure; given: how many labels a person or a file gave.
+ * place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; confidence: as in `AssetStatus`, below 50 where it is
+ * unsure.
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
  * changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -718,8 +703,7 @@ export interface Card {
   asset: string;
   hulls: number | null;
   labels: number[];
-  unsure: number[];
-  given: number;
+  confidence: number[];
   demonstrated: boolean;
   output: "none" | "edited" | "unchanged" | "failed";
   after: number | null;
@@ -1012,10 +996,8 @@ export interface NextStep {
   kind:
     | "wait"
     | "decompose"
-    | "label-files"
-    | "label-names"
+    | "label-all"
     | "label"
-    | "propagate"
     | "check-labels"
     | "demonstrate"
     | "learn"
@@ -1054,7 +1036,7 @@ export interface HistoryState {
  * What the last edit did, if it changed the labels of all assets. way: its kind.
  */
 export interface LabelUpdate {
-  way: "propagate" | "label-files" | "label-names" | "label-vlm";
+  way: "label-all" | "label-vlm";
   assets: AssetLabelUpdate[];
 }
 /**
@@ -1159,17 +1141,7 @@ export interface Reach {
 export interface Job {
   id: string;
   kind:
-    | "read"
-    | "apply"
-    | "decompose"
-    | "rebuild"
-    | "export"
-    | "add"
-    | "propagate"
-    | "forecast"
-    | "ask"
-    | "check"
-    | "download";
+    "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "download";
   title: string;
   done: number;
   total: number;
@@ -1308,10 +1280,10 @@ export interface RebuildJob {
   dry_run?: boolean;
 }
 /**
- * Propagate the labels of people and files to all other hulls of the family.
+ * Label all hulls of the family from files, names, and the labels that there are, weighed together.
  */
-export interface PropagateJob {
-  kind: "propagate";
+export interface LabelJob {
+  kind: "label";
 }
 /**
  * Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls

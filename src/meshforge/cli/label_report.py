@@ -16,27 +16,13 @@ from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.labels import LabelChange, Labeler, LabelOutcome, LabelResult, Proposal, Proposals, Tally
-from meshforge.project import Project
+from meshforge.project import SOURCE_WORDS, Project
 
 _DOUBTFUL = "Doubtful assets have hulls without a label, or with an unsure one."
 _MAX_NAMES = 8  # hulls without a label in a row
 _FEW_NAMES = 3  # of hulls whose names say a label
 _MAX_LINES = 20  # problems of one asset, and pairs of labels, that are shown
 _RANKS: tuple[batch.LabelStatus, ...] = ("problems", "doubtful", "labelled")
-_SOURCE_WORDS = {
-    "user": "people",
-    "repair": "people, repairs confirmed",
-    "file": "files",
-    "name": "names",
-    "propagated": "propagation",
-    "like": "another family",
-    "step": "steps shown",
-    "class": "likeness to steps shown",
-    "rebuild": "rebuilt bodies",
-    "vlm": "a model",
-    "edit": "edits",
-    "plugin": "plug-ins",
-}
 
 
 class LabelPrinter:
@@ -135,7 +121,7 @@ class LabelPrinter:
 
 
 def _print_tally(tally: Tally) -> None:
-    rows = [(_SOURCE_WORDS[share.source], share.sure, share.likely, share.unsure) for share in tally.shares]
+    rows = [(SOURCE_WORDS[share.source], share.sure, share.likely, share.unsure) for share in tally.shares]
     columns = ("labels from", "sure", "likely", "unsure")
     typer.echo()
     print_table(columns, [*rows, ("no label", "", "", tally.unlabelled)], right=columns[1:])

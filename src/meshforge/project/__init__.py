@@ -28,7 +28,8 @@ __getattr__, __all__ = export_lazily(
         "family_step": "choose_next_step",
         "next_step": "NextStep format_first format_next format_step",
         "status": (
-            "AssetStatus FamilyState LastRun LearnStatus OpenQuestion OutputState PropagationState SignOffState Status"
+            "GIVEN NO_LABEL SOURCE_WORDS AssetStatus FamilyState LastRun LearnStatus OpenQuestion OutputState "
+            "PropagationState SignOffState Status"
         ),
     },
 )

@@ -44,6 +44,9 @@ from meshforge.project.next_step import NextStep as NextStep
 from meshforge.project.next_step import format_first as format_first
 from meshforge.project.next_step import format_next as format_next
 from meshforge.project.next_step import format_step as format_step
+from meshforge.project.status import GIVEN as GIVEN
+from meshforge.project.status import NO_LABEL as NO_LABEL
+from meshforge.project.status import SOURCE_WORDS as SOURCE_WORDS
 from meshforge.project.status import AssetStatus as AssetStatus
 from meshforge.project.status import FamilyState as FamilyState
 from meshforge.project.status import LastRun as LastRun

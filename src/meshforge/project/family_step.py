@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge.common import pluralize, quote_path
 from meshforge.labels import label_command
 from meshforge.project.next_step import NextStep, StepKind
-from meshforge.project.status import AssetStatus, FamilyState
+from meshforge.project.status import GIVEN, AssetStatus, FamilyState
 from meshforge.store import Layout
 
 
@@ -72,12 +72,10 @@ def _take_offers(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | 
         return None
     ids, offers = {asset.id for asset in bare}, state.find_offers()
     if files := ids.intersection(offers.files):
-        text = f"Labels files lie beside {pluralize(len(files), 'asset')}: take their labels."
-        return _step(state, "label-files", text, "label")
+        return _label_all(state, f"Labels files lie beside {pluralize(len(files), 'asset')}")
     named = sum(len(names) for asset, names in offers.names.items() if asset in ids)
     if named and not any(asset.labelled for asset in state.assets):
-        text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
-        return _step(state, "label-names", text, "label")
+        return _label_all(state, f"The names of {pluralize(named, 'hull')} contain a label")
     return None
 
 
@@ -99,17 +97,17 @@ def _complete_labels(state: FamilyState) -> NextStep | None:
     if step := _take_offers(state, bare):
         return step
     if bare and _has_whole(state):
-        return _propagate(state, f"{_count_assets(bare, 'has', 'have')} no label")
+        return _label_all(state, f"{_count_assets(bare, 'has', 'have')} no label")
     return _label_rest(state) or _check_labels(state)
 
 
 def _has_whole(state: FamilyState) -> bool:
-    """Whether people or files labelled all hulls of an asset, so that its labels can be propagated."""
-    return any(asset.hulls and asset.given == asset.hulls for asset in state.assets)
+    """Whether people, files or names labelled all hulls of an asset, so that its labels can be propagated."""
+    return any(asset.hulls and asset.confidence.count(GIVEN) == asset.hulls for asset in state.assets)
 
 
-def _propagate(state: FamilyState, why: str) -> NextStep:
-    return _step(state, "propagate", f"{why}: propagate labels.", "label")
+def _label_all(state: FamilyState, why: str) -> NextStep:
+    return _step(state, "label-all", f"{why}: label all hulls.", "label")
 
 
 def _label_rest(state: FamilyState) -> NextStep | None:
@@ -120,22 +118,22 @@ def _label_rest(state: FamilyState) -> NextStep | None:
     every = sum(len(asset.names) for asset in state.assets)
     why = f"{lack} of {pluralize(every, 'hull')} {'has' if lack == 1 else 'have'} no label"
     if state.propagation is None and _has_whole(state):
-        return _propagate(state, why)
+        return _label_all(state, why)
     begun = [asset for asset in lacking if asset.labelled] or lacking
     best = min(begun, key=lambda asset: len(asset.names) - asset.labelled)
     return _label_by_hand(state, best, f"{why}: label those of {best.id}.")
 
 
 def _check_labels(state: FamilyState) -> NextStep | None:
-    unsure = sum(len(asset.unsure) for asset in state.assets)
+    unsure = sum(asset.unsure for asset in state.assets)
     if not unsure:
         return None
     last = state.propagation
     if last and last.unused >= unsure:
-        return _propagate(state, f"{pluralize(last.unused, 'label')} of yours not used yet")
+        return _label_all(state, f"{pluralize(last.unused, 'label')} of yours not used yet")
     are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
     best = next((asset for asset in state.assets if last and asset.id == last.next), None)
-    if best and len(best.names) - best.given < unsure:
+    if best and len(best.names) - best.confidence.count(GIVEN) < unsure:
         return _step(state, "check-labels", f"{are}: label {best.id} next.", "studio", best.id)
     first = next(asset.id for asset in state.assets if asset.unsure)
     return _step(state, "check-labels", f"{are}: look at them, first on {first}.", "studio", first)
@@ -201,7 +199,7 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
     if step := _take_offers(state, bare):
         return step
     if _has_whole(state):
-        return _propagate(state, why)
+        return _label_all(state, why)
     return _label_by_hand(state, bare[0], f"{why}: label those of {bare[0].id}.")
 
 

@@ -10,10 +10,8 @@ from meshforge.common import quote_path
 StepKind = Literal[
     "wait",
     "decompose",
-    "label-files",
-    "label-names",
+    "label-all",
     "label",
-    "propagate",
     "check-labels",
     "demonstrate",
     "learn",

@@ -14,6 +14,15 @@ SignOffState = Literal["signed off", "sure", "needs review", "void", "excluded",
 unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
 LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"]
+SOURCE_WORDS: dict[str, str] = {
+    "user": "people", "repair": "people, repairs confirmed", "file": "files", "name": "names",
+    "propagated": "propagation", "like": "another family", "step": "steps shown", "class": "likeness to steps shown",
+    "rebuild": "rebuilt bodies", "vlm": "a model", "edit": "edits", "plugin": "plug-ins",
+}  # fmt: skip
+"""Where labels of each source are from."""
+NO_LABEL, GIVEN = -1, 101
+"""In `AssetStatus.confidence`: of a hull without a label; of a label that a person, a file or a name gave."""
+_HALF, _ROUNDING = 50, 1e-6  # 0.29 is 29 percent, and what is below one half stays below it
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,16 +72,15 @@ class AssetStatus:
     reasons: tuple[signoff.Reason, ...] = ()
 
     @property
-    def given(self) -> int:
-        """How many labels a person or a file gave."""
-        return sum(label is not None and label.source in symbolic.GIVEN_SOURCES for label in self.labels)
+    def confidence(self) -> tuple[int, ...]:
+        """To how many percent each label is sure, not at all where it was given to another geometry; see `GIVEN`."""
+        rows = zip(self.names, self.labels, strict=True)
+        return tuple(0 if name in self.doubtful else _percent_of(label) for name, label in rows)
 
     @property
-    def unsure(self) -> tuple[int, ...]:
-        """Positions of hulls whose label is not sure, or was given to another geometry."""
-        rows = enumerate(zip(self.names, self.labels, strict=True))
-        least = rendering.UNSURE
-        return tuple(k for k, (name, label) in rows if label and (label.confidence < least or name in self.doubtful))
+    def unsure(self) -> int:
+        """How many labels are not sure, or were given to another geometry."""
+        return sum(NO_LABEL < sure < _HALF for sure in self.confidence)
 
     @property
     def needs_review(self) -> bool:
@@ -96,6 +104,12 @@ class AssetStatus:
         """Return how sure its edit is, as `status`, `apply` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, 4)
         return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
+
+
+def _percent_of(label: symbolic.Label | None) -> int:
+    if label is None:
+        return NO_LABEL
+    return GIVEN if rendering.look_of(label) == "given" else int(100 * label.confidence + _ROUNDING)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,10 @@ __getattr__, __all__ = export_lazily(
     {
         "camera": "VIEWS Up View",
         "canvas": "check_picture_path encode_png encode_webp make_contact_sheet write_picture write_png",
-        "colors": "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy color_hulls label_color label_colors",
+        "colors": (
+            "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy LabelLook color_hulls label_color label_colors "
+            "look_of"
+        ),
         "comparison": (
             "LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_turn draw_volumes "
             "encode_gif list_turns write_gif"

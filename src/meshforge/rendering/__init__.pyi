@@ -13,9 +13,11 @@ from meshforge.rendering.colors import SELECTED as SELECTED
 from meshforge.rendering.colors import UNLABELLED as UNLABELLED
 from meshforge.rendering.colors import UNSURE as UNSURE
 from meshforge.rendering.colors import ColorBy as ColorBy
+from meshforge.rendering.colors import LabelLook as LabelLook
 from meshforge.rendering.colors import color_hulls as color_hulls
 from meshforge.rendering.colors import label_color as label_color
 from meshforge.rendering.colors import label_colors as label_colors
+from meshforge.rendering.colors import look_of as look_of
 from meshforge.rendering.comparison import LengthUnit as LengthUnit
 from meshforge.rendering.comparison import compare as compare
 from meshforge.rendering.comparison import draw_before_after as draw_before_after

@@ -1,13 +1,13 @@
 """Colours that are easy to tell apart, with and without colour blindness, and which hull gets which of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
 
 from meshforge.geometry import Floats
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import CERTAIN_SOURCES, GIVEN_SOURCES, Hull, Label, SymbolicMesh
 
 LABEL_COLORS = (
     "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
@@ -32,6 +32,9 @@ ColorBy = Literal["hull", "label", "body"]
 COLOR_BY: tuple[ColorBy, ...] = get_args(ColorBy)
 UNSURE = 0.5
 """Labels less certain than this are hatched."""
+LabelLook = Literal["given", "guessed", "unsure"]
+_GIVEN_FROM = dict.fromkeys(GIVEN_SOURCES | CERTAIN_SOURCES, UNSURE) | {"name": 0.7, "edit": 1.0}
+"""From which confidence on a label of a source is given; a name of a hull that holds the very word has 0.7."""
 _CLEAR = 0.3  # in red, green and blue: hulls in contact should differ by so much
 _USED = 0.2  # by how much more a colour must differ for each use that it had already
 _DIMMER = 0.9  # and so much darker it is each time
@@ -68,11 +71,20 @@ class LegendEntry:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullColors:
-    """A colour for each hull (n, 3), sRGB in 0..1, and the legend; hatched: hulls whose label is not sure."""
+    """A colour for each hull (n, 3), sRGB in 0..1, and the legend; hatched, dotted: hulls whose label is not sure, or
+    guessed."""
 
     colors: Floats
     legend: tuple[LegendEntry, ...] = ()
     hatched: frozenset[int] = frozenset()
+    dotted: frozenset[int] = frozenset()
+
+
+def look_of(label: Label | None) -> LabelLook | None:
+    """Return whether a label is given, by a person, a file or a name, or else guessed, or not even sure."""
+    if label is None or label.confidence < UNSURE:
+        return "unsure" if label else None
+    return "given" if label.confidence >= _GIVEN_FROM.get(label.source, np.inf) else "guessed"
 
 
 def color_hulls(
@@ -88,11 +100,15 @@ def color_hulls(
             assigned = {mesh.index[name]: color for name, color in (known or {}).items() if name in mesh.index}
             return HullColors(pick_distinct_colors(mesh, range(len(mesh.hulls)), assigned))
         case "label":
-            found = {h.label for h in mesh.hulls if h.label} - set(vocabulary)
-            coloring = _color_by_group(mesh, [*vocabulary, *sorted(found)], lambda hull: hull.label)
-            unsure = [k for k, h in enumerate(mesh.hulls) if h.confidence is not None and h.confidence < UNSURE]
-            note = (LegendEntry("", "hatched: unsure", len(unsure)),) if unsure else ()
-            return replace(coloring, legend=coloring.legend + note, hatched=frozenset(unsure))
+            others = {h.label for h in mesh.hulls if h.label} - set(vocabulary)
+            coloring = _color_by_group(mesh, [*vocabulary, *sorted(others)], lambda hull: hull.label)
+            looks = [look_of(h.annotation) for h in mesh.hulls]
+            marks = {"dotted": "guessed", "hatched": "unsure"}
+            found = {m: frozenset(k for k, look in enumerate(looks) if look == marks[m]) for m in marks}
+            notes = tuple(LegendEntry("", f"{m}: {marks[m]}", len(found[m])) for m in marks if found[m])
+            colors = coloring.colors.copy()
+            colors[sorted(found["dotted"])] = (1 + colors[sorted(found["dotted"])]) / 2  # half white
+            return HullColors(colors, coloring.legend + notes, **found)
         case "body":
             return _color_by_group(mesh, list(dict.fromkeys(h.body for h in mesh.hulls)), lambda hull: hull.body)
 

@@ -207,7 +207,8 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     rows, columns = _pixels_where(solid.item >= 0)
     color = shade_surface(layers[0], solid, frame, close, rows, columns)
     color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
-    color += (1 - color) * (0.55 * _is_between_stripes(layers[0], solid)[rows, columns])[:, None]
+    color += (1 - color) * (0.55 * _find_pattern(layers[0].hatched, solid)[rows, columns])[:, None]
+    color *= (1 - 0.4 * _find_pattern(layers[0].dotted, solid, dots=True)[rows, columns])[:, None]
     pixels[rows, columns, :3], pixels[rows, columns, 3] = color, 1.0
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
     drawn = trace_lines(solid, width)
@@ -230,7 +231,7 @@ def _paint_shell(
     rows, columns = _pixels_where((hits.item >= 0) & (solid.item >= 0))
     farther = hits.depth(camera, rows, columns) > solid.depth(camera, rows, columns) + _SAME_DEPTH
     share[rows[farther], columns[farther]] = layer.behind
-    share[_is_between_stripes(layer, hits)] *= 0.45
+    share[_find_pattern(layer.hatched, hits)] *= 0.45
     only_lines = np.isin(solid.item, sorted(layer.drawn_over))
     share[only_lines] = 0.0
     rows, columns = _pixels_where(share > 0)
@@ -260,11 +261,15 @@ def shade_surface(
     return color
 
 
-def _is_between_stripes(layer: DrawLayer, hits: RayHits) -> Any:
-    """Which pixels (h, w) lie between the diagonal stripes of hatched things, sixty stripes across the picture."""
-    if not layer.hatched:
+def _find_pattern(things: frozenset[int], hits: RayHits, *, dots: bool = False) -> Any:
+    """Which pixels (h, w) of some things lie between stripes, sixty across the picture, or on dots as dense."""
+    if not things:
         return np.zeros(hits.item.shape, dtype=bool)
     height, width = hits.item.shape
     period = max(4, (width + height) // 120)
-    gap = (np.arange(height)[:, None] + np.arange(width)) % period >= period // 2
-    return gap & np.isin(hits.item, sorted(layer.hatched))
+    row, column = np.arange(height)[:, None], np.arange(width)
+    across, down = (row + column) % period, (row - column) % period
+    middle, found = period / 2, across >= period // 2
+    if dots:
+        found = (across - middle) ** 2 + (down - middle) ** 2 < (period / 4) ** 2
+    return found & np.isin(hits.item, sorted(things))

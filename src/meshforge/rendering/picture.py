@@ -166,7 +166,7 @@ def build_subject(
     up: the axis that points up, None for that of the mesh.
     """
     render_meshes = render_meshes_of(mesh.hulls)
-    solid = DrawLayer(render_meshes, coloring.colors, hatched=coloring.hatched)
+    solid = DrawLayer(render_meshes, coloring.colors, hatched=coloring.hatched, dotted=coloring.dotted)
     layers, shells = [solid], [s for s in map(to_render_mesh, ghost) if len(s.faces)]
     if shells:
         layers.append(DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.3))

@@ -20,8 +20,9 @@ class DrawLayer:
     """Things drawn together. colors: (k, 3), sRGB in 0..1, one for each render_mesh.
 
     solid things hide what is behind them. Shells do not: `before` and `behind` are how much of them shows before and
-    behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched: which of them
-    are striped. tint: colours (n, 3) of points (n, 3) [m] that some of them (n,) show, instead of `colors`.
+    behind solid things; of a shell in front of `drawn_over` solid things only the lines show. hatched, dotted: which
+    of them have stripes or dots. tint: colours (n, 3) of points (n, 3) [m] that some of them (n,) show, instead of
+    `colors`.
     """
 
     render_meshes: Sequence[RenderMesh]
@@ -30,6 +31,7 @@ class DrawLayer:
     before: float = 1.0
     behind: float = 0.0
     hatched: frozenset[int] = frozenset()
+    dotted: frozenset[int] = frozenset()
     drawn_over: frozenset[int] = frozenset()
     tint: Callable[[Floats, Ints], Floats] | None = None
 

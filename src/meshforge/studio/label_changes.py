@@ -1,34 +1,22 @@
 """Labels on the cards of a family: shown as soon as a person gave them, while their files are still being written; and
-what the history says of them: what the last edit of all labels changed, and what is new since propagation."""
+what the history says of them: what the last edit of all labels changed, and how many were given since."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
-from meshforge.project import Project, PropagationState
+from meshforge.project import GIVEN, NO_LABEL, PropagationState
 from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.pages import PageState
-from meshforge.studio.wire.family import Card
+from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate
-from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
+from meshforge.symbolic import NO_PART, Label, read_labels
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
 HullNames = Mapping[str, Sequence[str]]
 """The names of the hulls of each asset, in order."""
-
-HullLabels = Mapping[str, Label]
-"""Labels by the names of hulls."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Propagation:
-    """Labels were propagated when so many entries were done; best: the asset that would help most then."""
-
-    entries: int
-    best: str | None
 
 
 class LabelChanges:
@@ -54,16 +42,20 @@ class LabelChanges:
         """Note a propagation that changed no label and so is no entry; entries: how many there were then."""
         self._no_change = self._history.entries[:entries], best
 
-    def propagation_state(self, project: Project, cards: Sequence[Card]) -> PropagationState | None:
-        """Return what is known of the last propagation; None where there was none, or where it is undone."""
+    def propagation_state(self, cards: Sequence[wire.Card]) -> PropagationState | None:
+        """Return what is known of the last time that all hulls were labelled; None where there was none, or where it is
+        undone."""
         done = self._history.entries
-        used = self._last_propagation(done)
-        if used is None:
+        found = self._last_run(done)
+        if found is None:
             return None
-        is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
-        states = self._label_states(project, done[used.entries :])
-        unused = sum(count_new_labels(before, now) for before, now in states)
-        return PropagationState(unused=unused, next=used.best if is_open else None)
+        used, best = found
+        is_open = any(card.asset == best and any(sure != GIVEN for sure in card.confidence) for card in cards)
+        edits = [entry.edit for entry in done[used:] if entry.edit.get("kind") == "label"]
+        rows = ((asset, hulls, edit["label"]) for edit in edits for asset, hulls in edit["hulls"].items())
+        given = {(asset, hull): label for asset, hulls, label in rows for hull in hulls}
+        unused = sum(label is not None for label in given.values())
+        return PropagationState(unused=unused, next=best if is_open else None)
 
     def _build_change(self, entry: HistoryEntry, names: HullNames) -> LabelUpdate:
         found = (
@@ -73,34 +65,18 @@ class LabelChanges:
         )
         return LabelUpdate(way=entry.edit["kind"], assets=tuple(filter(None, found)))
 
-    def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
-        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
+    def _last_run(self, done: tuple[HistoryEntry, ...]) -> tuple[int, str | None] | None:
+        """How many entries were done when all hulls were labelled last, and the asset that would help most then."""
+        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "label-all"), None)
         edit = {} if last is None else done[last].edit
-        found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))
+        found = None if last is None else (min(edit.get("used", last), last), edit.get("next"))
         if self._no_change is None:
             return found
         entries, best = self._no_change
-        is_newer = found is None or len(entries) > found.entries
-        return _Propagation(len(entries), best) if is_newer and done[: len(entries)] == entries else found
+        is_newer = found is None or len(entries) > found[0]
+        return (len(entries), best) if is_newer and done[: len(entries)] == entries else found
 
-    def _label_states(self, project: Project, since: Sequence[HistoryEntry]) -> Iterator[tuple[HullLabels, HullLabels]]:
-        """The labels of each asset that people or files labelled since: before that, with the names of now, and now."""
-        first: dict[str, str | None] = {}
-        for entry in since:
-            first = first if entry.edit.get("kind") == "propagate" else entry.before | first
-        words = [(entry.edit["old"], entry.edit["new"]) for entry in since if entry.edit.get("kind") == "rename-label"]
-        known = set(project.assets())
-        for asset, name in _labels_files(first).items():
-            if asset in known:
-                before = self._read_state(first[name])
-                for old, new in words:
-                    before = {hull: label.rename(old, new) for hull, label in before.items()}
-                try:
-                    yield before, project.labels(asset).labels
-                except MeshForgeError:  # its card shows that they cannot be read
-                    continue
-
-    def _read_state(self, digest: str | None) -> HullLabels:
+    def _read_state(self, digest: str | None) -> Mapping[str, Label]:
         """What a labels file held; empty where there was none, or where the history was damaged."""
         try:
             return read_labels(self._history.path_of(digest)).labels if digest else {}
@@ -113,7 +89,9 @@ def _labels_files(names: Iterable[str]) -> dict[str, str]:
     return {asset: name for name in names if (asset := Layout.labels.match(name)) is not None}
 
 
-def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> AssetLabelUpdate | None:
+def diff_labels(
+    asset: str, names: Sequence[str], before: Mapping[str, Label], after: Mapping[str, Label]
+) -> AssetLabelUpdate | None:
     """Return which hulls got another label, None where none did; names: of all hulls, in order."""
     pairs = [(k, before.get(name), after.get(name)) for k, name in enumerate(names)]
     new = tuple(k for k, was, now in pairs if now and not was)
@@ -121,12 +99,6 @@ def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: Hul
     if not new and not changed:
         return None
     return AssetLabelUpdate(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
-
-
-def count_new_labels(before: HullLabels, now: HullLabels) -> int:
-    """Return how many labels of people and files are new or changed."""
-    given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
-    return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())
 
 
 class EarlyLabels:
@@ -148,7 +120,7 @@ class EarlyLabels:
             self._pages.set_cards(before)
             raise
 
-    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
+    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[wire.Card, ...]:
         cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
         places = {word.name: place for place, word in enumerate(self._pages.shown.project.vocabulary)}
         names = self._names()
@@ -158,7 +130,9 @@ class EarlyLabels:
         return tuple(cards.values())
 
 
-def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]) -> Card:
+def relabel_card(
+    card: wire.Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]
+) -> wire.Card:
     """Return a card with labels that a person gave; names: of its hulls, in order; places: of the labels in the
     vocabulary.
 
@@ -167,14 +141,13 @@ def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | No
     if len(names) != len(card.labels):
         return card
     at = {name: place for place, name in enumerate(names)}
-    new = {
-        at[hull]: -1 if label is None else places[label]
-        for hull, label in labels.items()
-        if hull in at and (label is None or label in places)
-    }
+    known = {**places, NO_PART: wire.NO_PART}
+    wanted = {hull: label for hull, label in labels.items() if hull in at and (label is None or label in known)}
+    new = {at[hull]: NO_LABEL if label is None else known[label] for hull, label in wanted.items()}
+    sure = {place: NO_LABEL if label == NO_LABEL else GIVEN for place, label in new.items()}
     return card.model_copy(
         update={
             "labels": tuple(new.get(place, label) for place, label in enumerate(card.labels)),
-            "unsure": tuple(place for place in card.unsure if place not in new),
+            "confidence": tuple(sure.get(place, percent) for place, percent in enumerate(card.confidence)),
         }
     )

@@ -64,13 +64,13 @@ def test_the_steps_follow_one_another() -> None:
 def test_labels_that_are_there_already_are_taken_first() -> None:
     files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
     step = choose(BARE, replace(BARE, id="b"), vocabulary=(), find_offers=lambda: files)
-    assert step.text == "Labels files lie beside 2 assets: take their labels."
-    assert (step.kind, step.command) == ("label-files", "meshforge label p")
+    assert step.text == "Labels files lie beside 2 assets: label all hulls."
+    assert (step.kind, step.command) == ("label-all", "meshforge label p")
     step = choose(BARE, find_offers=lambda: names)
-    assert step.text == "The names of 1 hull contain a label: take their labels."
+    assert step.text == "The names of 1 hull contain a label: label all hulls."
     assert choose(SHOWN, find_offers=lambda: files).kind == "learn"
     assert choose(BARE, find_offers=lambda: files, has_program=True).kind == "apply", "it asks for no labels"
-    assert choose(BARE, find_offers=lambda: files, has_program=True, asks_labels=True).kind == "label-files"
+    assert choose(BARE, find_offers=lambda: files, has_program=True, asks_labels=True).kind == "label-all"
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
@@ -113,7 +113,7 @@ def test_a_program_that_cannot_be_applied_is_fixed_before_anything_else_is_done_
 def test_labels_are_propagated_from_an_asset_that_people_or_files_labelled_as_a_whole() -> None:
     whole = asset("w")
     step = choose(BARE, whole)
-    assert (step.kind, step.text) == ("propagate", "a has no label: propagate labels.")
+    assert (step.kind, step.text) == ("label-all", "a has no label: label all hulls.")
     assert choose(BARE, replace(BARE, id="b"), whole).text.startswith("2 assets have no label")
     assert choose(BARE, replace(BEGUN, id="b")).kind == "label", "none is whole"
     assert choose(BARE, asset("w", "hm")).kind == "label", "a machine labelled it"
@@ -125,7 +125,7 @@ def test_hulls_without_a_label_are_labelled_before_anything_is_demonstrated() ->
     assert (step.kind, step.asset) == ("label", "c2")
     assert step.text == "95 of 136 hulls have no label: label those of c2."
     assert step.command == "meshforge label p c2 'h11=LABEL'"
-    assert choose(most, rest, asset("w")).text == "95 of 138 hulls have no label: propagate labels."
+    assert choose(most, rest, asset("w")).text == "95 of 138 hulls have no label: label all hulls."
     assert choose(most, rest, asset("w"), propagation=PropagationState(0)).asset == "c2", "propagation left them"
     assert choose(most, replace(rest, demonstrated=True)).kind == "learn", "who went on is let go on"
     assert choose(BEGUN).text == "1 of 2 hulls has no label: label those of a."
@@ -140,7 +140,7 @@ def test_unsure_labels_are_checked_unless_something_else_is_less_work() -> None:
     step = choose(whole, doubtful, nearly, propagation=PropagationState(0, "n"))
     assert (step.asset, step.text) == ("n", "3 labels are unsure: label n next.")
     step = choose(whole, doubtful, propagation=PropagationState(3))
-    assert step.text == "3 labels of yours not used yet: propagate labels."
+    assert step.text == "3 labels of yours not used yet: label all hulls."
     assert choose(whole, doubtful, propagation=PropagationState(2)).kind == "check-labels"
 
 

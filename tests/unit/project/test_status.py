@@ -43,7 +43,7 @@ def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_
     assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL'"
     project.set_vocabulary(("top", "leg"))
     advice = of(project).next
-    assert advice.text == "The names of 1 hull contain a label: take their labels."
+    assert advice.text == "The names of 1 hull contain a label: label all hulls."
     assert advice.command == f"meshforge label {project.folder}"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
@@ -93,7 +93,7 @@ def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     list(project.apply(execution=IN_PROCESS))
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
-    assert of(project).next.kind == "label-files"
+    assert of(project).next.kind == "label-all"
 
 
 def test_a_learned_program_is_outdated_when_what_it_was_learned_from_changes(tmp_path: Path) -> None:

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from numpy.random import default_rng
 
 from meshforge.rendering.colors import (
     HULL_COLORS,
     LABEL_COLORS,
     UNLABELLED,
+    LabelLook,
     color_hulls,
     hexadecimal,
     highlight_hulls,
     label_colors,
+    look_of,
     pick_distinct_colors,
     rgb,
 )
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from tests.unit.rendering.scenes import box, hull, table
 
 
@@ -39,10 +42,31 @@ def test_labels_outside_the_vocabulary_come_after_it_by_alphabet() -> None:
     ]
 
 
-def test_unsure_labels_are_hatched() -> None:
+def test_unsure_labels_are_hatched_and_guessed_ones_dotted_on_a_paler_ground() -> None:
     coloring = color_hulls(table(), "label")
-    assert coloring.hatched == {3}
-    assert coloring.legend[-1].name.startswith("hatched")
+    assert coloring.hatched == {3} and not coloring.dotted
+    assert coloring.legend[-1].name == "hatched: unsure"
+    guessed = color_hulls(table().with_labels({"leg0": Label("leg", 0.9, "propagated")}), "label")
+    place = table().index["leg0"]
+    assert guessed.dotted == {place} and guessed.legend[-2].name == "dotted: guessed"
+    assert (guessed.colors[place] > coloring.colors[place]).any() and (guessed.colors >= coloring.colors).all()
+
+
+@pytest.mark.parametrize(
+    ("source", "confidence", "look"),
+    [
+        ("user", 1.0, "given"),
+        ("file", 0.6, "given"),
+        ("step", 1.0, "given"),
+        ("name", 0.7, "given"),  # its very word
+        ("name", 0.6, "guessed"),  # of its body
+        ("edit", 1.0, "given"),
+        ("propagated", 1.0, "guessed"),
+        ("vlm", 0.49, "unsure"),
+    ],
+)
+def test_only_people_files_and_names_give_labels(source: LabelSource, confidence: float, look: LabelLook) -> None:
+    assert look_of(Label("leg", confidence, source)) == look
 
 
 def test_touching_hulls_differ_clearly_even_in_a_long_row() -> None:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.project import NextStep
+from meshforge.project import GIVEN, NO_LABEL, NextStep
 from meshforge.store.history import HistoryState
 from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.label_changes import EarlyLabels
@@ -14,8 +14,8 @@ NO_HISTORY = HistoryState(None, None, 0, 0)
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=NextStep("label", "Label."), orient=OrientView())
 NAMES = {"a": ("one", "two"), "b": ("one",)}
 CARDS = (
-    Card(asset="a", hulls=2, labels=(0, 0), unsure=(0, 1)),
-    Card(asset="b", hulls=1, labels=(-1,)),
+    Card(asset="a", hulls=2, labels=(0, 0), confidence=(30, 60)),
+    Card(asset="b", hulls=1, labels=(-1,), confidence=(NO_LABEL,)),
     Card(asset="c"),  # not read yet
 )
 
@@ -33,21 +33,22 @@ def group(label: str | None) -> LabelHulls:
 
 
 @pytest.mark.parametrize(
-    ("label", "labels", "unsure"),
+    ("label", "labels", "confidence"),
     [
-        ("panel", [(0, 1), (1,), ()], (0,)),
-        (None, [(0, -1), (-1,), ()], (0,)),
-        ("door", [(0, 0), (-1,), ()], (0, 1)),  # outside of the vocabulary
+        ("panel", [(0, 1), (1,), ()], (30, GIVEN)),
+        ("no part", [(0, -2), (-2,), ()], (30, GIVEN)),
+        (None, [(0, -1), (-1,), ()], (30, NO_LABEL)),
+        ("door", [(0, 0), (-1,), ()], (30, 60)),  # outside of the vocabulary
     ],
 )
 def test_labels_are_on_the_cards_before_they_are_written(
-    label: str | None, labels: list[tuple[int, ...]], unsure: tuple[int, ...]
+    label: str | None, labels: list[tuple[int, ...]], confidence: tuple[int, ...]
 ) -> None:
     shown = pages()
     with EarlyLabels(shown, lambda: NAMES).show(group(label)):
         within = shown.cards
     assert [card.labels for card in within] == labels
-    assert within[0].unsure == unsure and shown.cards == within
+    assert within[0].confidence == confidence and shown.cards == within
 
 
 def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:

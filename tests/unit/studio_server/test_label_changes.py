@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.project import Project, PropagationState
+from meshforge.project import GIVEN, Project, PropagationState
 from meshforge.store import History
 from meshforge.studio.edits.assets import LabelHulls, RenameLabel
 from meshforge.studio.edits.base import Edit, make_edit
@@ -44,8 +44,8 @@ def carry(project: Project, history: History, best: str | None = "t1.obj") -> No
 
 
 def recorded(project: Project, history: History, used: int, best: str | None) -> AbstractContextManager[int]:
-    edit = {"kind": "propagate", "used": used, "next": best}
-    return history.record("labels propagated", edit, [project.folder / "labels"])
+    edit = {"kind": "label-all", "used": used, "next": best}
+    return history.record("hulls labelled", edit, [project.folder / "labels"])
 
 
 def labels(project: Project) -> dict[str, bytes]:
@@ -53,13 +53,13 @@ def labels(project: Project) -> dict[str, bytes]:
 
 
 def cards(project: Project) -> list[Card]:
-    rows = {asset: project.labels(asset).labels.values() for asset in ASSETS}
-    given = {asset: sum(one.source in GIVEN_SOURCES for one in row) for asset, row in rows.items()}
-    return [Card(asset=asset, hulls=len(NAMES), given=given[asset]) for asset in ASSETS]
+    rows = {asset: project.labels(asset).labels for asset in ASSETS}
+    given = {asset: {hull for hull, one in row.items() if one.source in GIVEN_SOURCES} for asset, row in rows.items()}
+    return [Card(asset=asset, confidence=tuple(GIVEN if n in given[asset] else 60 for n in NAMES)) for asset in ASSETS]
 
 
 def carried(project: Project, history: History) -> PropagationState | None:
-    return LabelChanges(history).propagation_state(project, cards(project))
+    return LabelChanges(history).propagation_state(cards(project))
 
 
 def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
@@ -68,7 +68,7 @@ def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(
     assert relabelling.last_change(HULLS) is None
     carry(project, history)
     found = relabelling.last_change(HULLS)
-    assert found and found.way == "propagate"
+    assert found and found.way == "label-all"
     assert [(one.asset, one.new, one.changed) for one in found.assets] == [
         (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
     ]
@@ -113,33 +113,32 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(label("t1.obj", "crumb", "misc")) == 1
     assert unused_after(label("t1.obj", "top", "top")) == 2, "a label that was right is news, now that a person says it"
     assert unused_after(label("t0.obj", "top", "misc")) == 3
-    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were propagated"
-    assert unused_after(RenameLabel(old="leg", new="foot")) == 2
-    assert unused_after(label("t1.obj", "crumb", None)) == 1
+    assert unused_after(RenameLabel(old="leg", new="foot")) == 3
+    assert unused_after(label("t1.obj", "crumb", None)) == 2
     history.undo()
-    assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=3, next="t1.obj")
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history, "t2.obj")
     assert carried(project, history) == PropagationState(unused=0, next="t2.obj")
     history.undo()
-    assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=3, next="t1.obj")
 
 
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     relabelling = LabelChanges(history)
     relabelling.note_no_change(0, "t2.obj")
-    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(cards(project)) == PropagationState(unused=0, next="t2.obj")
     carry(project, history)
     make_edit(history, project, label("t1.obj", "top", "top"))
-    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t1.obj")
+    assert relabelling.propagation_state(cards(project)) == PropagationState(unused=1, next="t1.obj")
     relabelling.note_no_change(2, "t2.obj")
-    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(cards(project)) == PropagationState(unused=0, next="t2.obj")
     make_edit(history, project, label("t2.obj", "top", "top"))
-    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t2.obj")
+    assert relabelling.propagation_state(cards(project)) == PropagationState(unused=1, next="t2.obj")
     history.undo()
     history.undo()
-    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t1.obj"), (
+    assert relabelling.propagation_state(cards(project)) == PropagationState(unused=0, next="t1.obj"), (
         "before it was said"
     )
 
@@ -171,9 +170,7 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     assert found and found.next == "t1.obj"
     history = History.open(project.folder)
     make_edit(history, project, label("t1.obj", "crumb", "misc"))
-    known = cards(project)
-    project.layout.labels("t1.obj").write_text("{")
-    assert LabelChanges(history).propagation_state(project, known) == PropagationState(unused=0, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=1, next="t1.obj")
 
 
 MOVES = st.lists(
@@ -237,7 +234,7 @@ def test_carrying_over_that_is_killed_leaves_whole_labels_and_can_be_taken_back(
         if left == before:
             assert history.state.undoable == 1
             continue
-        assert history.state.undo == "labels propagated"
+        assert history.state.undo == "hulls labelled"
         history.undo()
         assert {name: text for name, text in labels(project).items() if not name.endswith(".tmp")} == before
     assert _said(project) == said

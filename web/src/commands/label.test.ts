@@ -12,7 +12,7 @@ import { commandFor } from "./list";
 
 const command = (key: string) => commandFor(key, labelCommands);
 const press = (key: string) => command(key)?.run();
-const hulls = ["x", "y"].map((name) => ({ name, label: null, confidence: null, source: null }));
+const hulls = ["x", "y"].map((name, k) => ({ name, label: k ? "leg" : null, confidence: null, source: null, look: k ? "unsure" : null }));
 let sent: AnyEdit[] = [];
 
 beforeEach(() => {
@@ -55,7 +55,7 @@ describe("a digit", () => {
     expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual([
       "2 gives the label top in the Label stage (Alt+1).",
       "0 removes labels in the Label stage (Alt+1).",
-      "P propagates labels in the Label stage (Alt+1).",
+      "P labels all hulls in the Label stage (Alt+1).",
     ]);
     expect([sent, useWorkspace.getState().brush]).toEqual([[], null]);
   });
@@ -82,30 +82,35 @@ describe("Escape", () => {
 });
 
 describe("P", () => {
-  it("propagates labels, or says why it cannot", async () => {
+  it("labels all hulls, or says why it cannot", async () => {
     const started = vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
-    press("P");
+    await press("P");
     expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Label the hulls of one asset first."]);
     expect(started).not.toHaveBeenCalled();
-    useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], given: 1 }) } });
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
     await press("P");
-    expect(started).toHaveBeenCalledWith({ kind: "propagate" });
+    expect(started).toHaveBeenCalledWith({ kind: "label" });
   });
 });
 
-describe("unsure hulls", () => {
-  it("have keys only where there are some", () => {
-    expect([command("N"), command("Shift+N")]).toEqual([undefined, undefined]);
-    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [0, 0], unsure: [1] }) } });
-    expect([command("N")?.id, command("Shift+N")?.id]).toEqual(["label-next-unsure", "label-previous-unsure"]);
+describe("hulls whose label nobody gave", () => {
+  const unsure = { cards: { a: sampleCard({ asset: "a", labels: [-1, 0], confidence: [-1, 30] }) } };
+
+  it("have keys in this stage only", () => {
+    useProject.setState(unsure);
+    expect([command("N")?.id, command("Shift+N")?.id]).toEqual(["label-next", "label-previous"]);
+    useWorkspace.setState({ stage: "learn" });
+    expect(command("N")).toBeUndefined();
   });
 
-  it("are confirmed by Enter only where one of them is selected", () => {
-    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [0, 0], unsure: [1] }) } });
+  it("are confirmed by Enter only where one of them is selected that has a label", () => {
+    useProject.setState(unsure);
     select(["x"]);
     expect(command("Enter")).toBeUndefined();
     select(["x", "y"]);
     expect(command("Enter")?.id).toBe("label-right");
+    useProject.setState({ cards: { a: sampleCard({ asset: "a", labels: [-1, 0], confidence: [-1, 101] }) } });
+    expect(command("Enter")).toBeUndefined();
     useWorkspace.setState({ asset: "b" });
     expect(command("Enter")).toBeUndefined();
   });

@@ -1,9 +1,9 @@
-// Commands that label: the digits, the brush, propagated labels, and the queue of hulls whose label is not sure.
-import { propagateLabels, whyNotPropagate } from "../store/jobs";
+// Commands that label: the digits, the brush, all hulls at once, and the walk through labels that nobody gave.
+import { labelAll, saveEdits, whyNotLabel } from "../store/jobs";
+import { applyLabel, confirmLabels, placeInWalk, walk } from "../store/labelWalk";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { notify } from "../store/toasts";
-import { applyLabel, confirmLabels, goToUnsure, isUnsure } from "../store/unsureHulls";
 import { setBrush, useWorkspace } from "../store/workspace";
 import { type Command, commandsOf } from "./command";
 
@@ -25,22 +25,22 @@ const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit
   run: () => (isLabelling() ? applyLabel(labelAt(digit - 1) ?? null) : sayWhere(String(digit), `gives the label ${labelAt(digit - 1)}`)),
 }));
 
-const isUnsureAny = (): boolean =>
-  isLabelling() && Object.values(useProject.getState().cards).some((card) => card.unsure.length > 0);
+const canWalk = (): boolean => isLabelling() && useProject.getState().order.length > 0;
 
-/** Propagates labels, or says why not. */
-function tryPropagate(): unknown {
-  const why = whyNotPropagate();
-  return why === null ? propagateLabels() : notify(why);
+/** Labels all hulls, or says why not, as soon as what was painted before is saved. */
+async function tryLabel(): Promise<unknown> {
+  await saveEdits();
+  const why = whyNotLabel();
+  return why === null ? labelAll() : notify(why);
 }
 
-/** Whether a hull is selected whose label is not sure. */
+/** Whether a hull is selected whose label nobody gave. */
 function isDoubtful(): boolean {
   const { asset, selection } = useWorkspace.getState();
   const { scene } = useScenes.getState();
   if (asset === null || scene?.asset !== asset) return false;
-  const card = useProject.getState().cards[asset];
-  return [...selection].some((name) => isUnsure(card, scene.view.hulls, name));
+  const { cards } = useProject.getState();
+  return scene.hulls.some(({ name, look }) => selection.has(name) && look && placeInWalk(cards, asset, scene.view.hulls, name));
 }
 
 export const labelCommands = commandsOf("Label", [
@@ -53,30 +53,30 @@ export const labelCommands = commandsOf("Label", [
   },
   {
     id: "label-right",
-    title: "Confirm the labels of the selection; next unsure hull",
+    title: "Confirm the labels of the selection; next hull",
     keys: ["Enter"],
     enabled: () => isLabelling() && isDoubtful(),
     run: confirmLabels,
   },
   {
-    id: "label-next-unsure",
-    title: "Next unsure hull",
+    id: "label-next",
+    title: "Next hull whose label nobody gave, the least sure first",
     keys: ["N"],
-    enabled: isUnsureAny,
-    run: () => goToUnsure(),
+    enabled: canWalk,
+    run: () => walk(),
   },
   {
-    id: "label-previous-unsure",
-    title: "Previous unsure hull",
+    id: "label-previous",
+    title: "Hull before that one, which is less sure",
     keys: ["Shift+N"],
-    enabled: isUnsureAny,
-    run: () => goToUnsure(-1),
+    enabled: canWalk,
+    run: () => walk(-1),
   },
   {
-    id: "label-carry-over",
-    title: "Propagate labels to all assets",
+    id: "label-all",
+    title: "Label all hulls from files, names and labels",
     keys: ["P"],
-    run: () => (isLabelling() ? tryPropagate() : sayWhere("P", "propagates labels")),
+    run: () => (isLabelling() ? tryLabel() : sayWhere("P", "labels all hulls")),
   },
   {
     id: "label-brush-down",

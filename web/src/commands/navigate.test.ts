@@ -13,7 +13,7 @@ const run = (key: string) => commandFor(key, goCommands)?.run();
 const asset = () => useWorkspace.getState().asset;
 
 beforeEach(() => {
-  const cards = [plain, { ...plain, asset: "b", unsure: [0] }, { ...plain, asset: "c" }];
+  const cards = [plain, { ...plain, asset: "b", confidence: [20] }, { ...plain, asset: "c" }];
   useProject.setState({ ...emptyProject, cards: Object.fromEntries(cards.map((card) => [card.asset, card])), order: ["a", "b", "c"] });
   useWorkspace.setState({ ...initialWorkspace, asset: "a" });
   useLayout.setState(initialLayout);

@@ -68,7 +68,7 @@ test("a key that means something only after an edit on its way waits for it; one
     isKnown = true;
     return { message: "labels taken over" };
   });
-  const made = perform({ kind: "label-files" });
+  const made = perform({ kind: "unprepare", asset: "a" });
   runKey(() => () => ran.push("known before"));
   runKey(() => (isKnown ? () => ran.push("known after") : undefined));
   expect([ran, isBusy()]).toEqual([["known before"], true]);

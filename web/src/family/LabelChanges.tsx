@@ -1,28 +1,22 @@
 // What the last edit of all labels changed: how many, where, and a way to each of them; until the next edit.
 import { Undo2, X } from "lucide-react";
-import { useEffect } from "react";
-import { whilePointed } from "../ui/whilePointed";
 import css from "./labelChanges.module.css";
 import { undo } from "../store/edits";
 import {
   type ChangeKind,
-  clearLabelChanges,
   countChanges,
   dismissLabelChanges,
-  highlightLabelChanges,
   openNextChange,
 } from "../store/labelChanges";
 import { useProject } from "../store/project";
-import { labelProgress } from "../store/unsureHulls";
+import { labelProgress } from "../store/labelWalk";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import type { LabelUpdate } from "../wire";
 
 const TITLES: Readonly<Record<LabelUpdate["way"], string>> = {
-  propagate: "Labels propagated",
-  "label-files": "Labels taken from files",
-  "label-names": "Labels taken from names",
+  "label-all": "Hulls labelled",
   "label-vlm": "Labels from a model",
 };
 
@@ -36,7 +30,6 @@ export function LabelChanges() {
 function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
   const { way } = relabelled;
   const unsure = useProject((state) => labelProgress(state.cards).unsure);
-  useEffect(() => clearLabelChanges, []);
   return (
     <div className={css.outcome} role="status" aria-label={TITLES[way]}>
       <b>{TITLES[way]}</b>
@@ -60,8 +53,7 @@ function ChangeButton({ relabelled, sort }: { relabelled: LabelUpdate; sort: Cha
     <button
       type="button"
       className={css.changed}
-      title="Highlights them in the family; click to open the next asset with some"
-      {...whilePointed(() => highlightLabelChanges(relabelled, sort), clearLabelChanges)}
+      title="Open the next asset with some"
       onClick={() => openNextChange(relabelled, sort)}
     >
       <span className={css.filled} aria-hidden />

@@ -1,6 +1,6 @@
 // Words on cards: names that fit, and what a screen reader says.
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
-import { matchesFilter, unlabelled } from "../store/family";
+import { countUnsure, matchesFilter, unlabelled } from "../store/family";
 import type { FilterName } from "../store/workspace";
 import type { Card, AssetLabelUpdate } from "../wire";
 
@@ -18,7 +18,7 @@ export interface Badge {
 /** How an asset stands, what matters most first; engine: whose limits count. */
 export function badgesOf(card: Card, engine = ""): readonly Badge[] {
   const { output, review, manual_edits: corrections, stale } = card;
-  const [bare, unsure] = [unlabelled(card), card.unsure.length];
+  const [bare, unsure] = [unlabelled(card), countUnsure(card)];
   const faults = faultsOf(card, engine);
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },

@@ -52,7 +52,7 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
       onPointerLeave={() => hover(null)}
     >
       <span role="gridcell" className={css.name} title={hidden ? `${hull.name} (hidden)` : hull.name}>
-        <Swatch color={tone.color ?? "var(--hull-unlabelled)"} hatched={tone.hatched} />
+        <Swatch color={tone.color ?? "var(--hull-unlabelled)"} fill={tone.fill} />
         {short === undefined ? (
           <Name text={hull.name} parts={parts} />
         ) : (
@@ -80,9 +80,9 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
 });
 
 function labelTitle({ hull }: Row, was: string | undefined): string {
-  if (hull.label === null) return "No label";
+  if (hull.look === null) return "No label";
   const share = hull.confidence === null ? "" : sureText(hull.confidence);
-  const parts = [hull.label, share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
+  const parts = [hull.label ?? "no part", share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
   return parts.filter(Boolean).join(", ");
 }
 
@@ -102,7 +102,7 @@ export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & 
       onPointerLeave={() => hover(null)}
     >
       <span role="gridcell" className={css.name} title={piece.name}>
-        <Swatch color="var(--hull-pale)" hatched />
+        <Swatch color="var(--hull-pale)" fill="hatched" />
         <Name text={piece.name} parts={NONE} />
       </span>
       <span role="gridcell" className={css.reason} title={piece.reason}>

@@ -9,7 +9,7 @@ const hull = (name: string, label: string | null, volume: number): SceneHull => 
   volume,
   body: "base",
   confidence: null,
-  source: null,
+  source: null, look: null,
   vertices: 8,
   faces: 12,
   primitive: null,

@@ -3,6 +3,7 @@ import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "reac
 import { useProject } from "../store/project";
 import { toRgb } from "./cssColor";
 import { drawOn, drawSoon } from "./drawQueue";
+import type { Fill } from "./hullColors";
 import { type IdMap, paintPixels } from "./idMap";
 import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
@@ -14,18 +15,18 @@ type IdPictureProps = Source & {
   label?: string;
   /** The colour of the hull in a place, in CSS; -1 stands for geometry that is no hull. */
   colors: (position: number) => string;
-  hatched?: (position: number) => boolean;
+  fill?: (position: number) => Fill;
   /** In CSS pixels; the picture fills its place without it. */
   width?: number;
   className?: string;
 };
 
-export function IdPicture({ asset, label, colors, hatched, width, className, ...source }: IdPictureProps) {
+export function IdPicture({ asset, label, colors, fill, width, className, ...source }: IdPictureProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { map, current, failed } = useIdMap(source.png ? { png: source.png } : { url: source.url ?? "" });
   const [drawn, setDrawn] = useState(false);
   const look = useTheme();
-  const paint = useMemo(() => ({ color: (k: number) => toRgb(colors(k)), hatched }), [colors, hatched]);
+  const paint = useMemo(() => ({ color: (k: number) => toRgb(colors(k)), fill }), [colors, fill]);
   useEffect(() => {
     const element = canvas.current;
     // what was painted before stays until the next picture is there: its hulls are others

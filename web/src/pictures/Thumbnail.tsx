@@ -2,7 +2,9 @@
 import { memo, useCallback, useMemo } from "react";
 import { api } from "../server/api";
 import { useProject } from "../store/project";
+import { GIVEN, isUnsure, UNLABELLED } from "../store/family";
 import { hueOf } from "./cssColor";
+import type { Fill } from "./hullColors";
 import { IdPicture } from "./IdPicture";
 import css from "./pictures.module.css";
 
@@ -22,11 +24,10 @@ interface ThumbnailProps {
 export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
-  const unsure = useProject(({ cards }) => cards[asset]?.unsure);
+  const confidence = useProject(({ cards }) => cards[asset]?.confidence);
   const palette = useProject(({ project }) => project.vocabulary.map((entry) => entry.color).join(" "));
   const run = useProject(({ outcome }) => outcome?.number ?? 0); // labels may turn it otherwise in the next one
   const marked = useMemo(() => (highlight ? new Set(highlight) : null), [highlight]);
-  const doubtful = useMemo(() => new Set(of === "source" ? unsure : []), [of, unsure]);
   const colors = useCallback(
     (k: number) => {
       if (k < 0) return "var(--hull-opaque)";
@@ -36,11 +37,17 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned,
     },
     [marked, of, labels, palette],
   );
-  const hatched = useCallback((k: number) => !marked && doubtful.has(k), [marked, doubtful]);
+  const fill = useCallback(
+    (k: number): Fill => {
+      const sure = marked || of === "output" ? UNLABELLED : (confidence?.[k] ?? UNLABELLED);
+      return isUnsure(sure) ? "hatched" : sure === UNLABELLED || sure === GIVEN ? "solid" : "dotted";
+    },
+    [marked, of, confidence],
+  );
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
   const url = turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);
-  return <IdPicture url={url} label={said} colors={colors} hatched={hatched} width={size} />;
+  return <IdPicture url={url} label={said} colors={colors} fill={fill} width={size} />;
 });
 
 /** Keeps the place of a picture that is not there. */

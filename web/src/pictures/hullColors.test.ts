@@ -1,8 +1,7 @@
 
 import { expect, test } from "vitest";
 import type { Scene } from "../store/scenes";
-import type { HullView } from "../wire";
-import { CONFIDENCE, confidenceColor, distinctPlaces, hasLowConfidence } from "./hullColors";
+import { distinctPlaces, fillOf } from "./hullColors";
 
 const names = Array.from({ length: 40 }, (_, k) => `h${k}`);
 const scene = (hulls: readonly { name: string; parent: string | null }[], contacts: [string, string][]) =>
@@ -32,11 +31,6 @@ test("what is made takes another colour where a neighbour has its parent's", () 
   expect(after.get("made")).not.toBe(before.get("h1"));
 });
 
-test("the scale of confidence ends in its ends", () => {
-  expect([confidenceColor(0), confidenceColor(1), confidenceColor(7)]).toEqual([CONFIDENCE[0], CONFIDENCE.at(-1), CONFIDENCE.at(-1)]);
-});
-
-test("a hull without a label is not unsure, it has none", () => {
-  const hull = { label: null, confidence: 0.1 } as HullView;
-  expect([hasLowConfidence(hull), hasLowConfidence({ ...hull, label: "leg" })]).toEqual([false, true]);
+test("labels that are given, guessed and unsure are told apart without colours", () => {
+  expect((["given", "guessed", "unsure", null] as const).map((look) => fillOf({ look }))).toEqual(["solid", "dotted", "hatched", "solid"]);
 });

@@ -1,5 +1,6 @@
 // Colouring pictures of the server.
 import { expect, test } from "vitest";
+import type { Fill } from "./hullColors";
 import { type Paint, paintPixels, readIdMap } from "./idMap";
 
 const map = (pixels: number[][], width = pixels.length) =>
@@ -26,12 +27,12 @@ test("what is covered by no hull is a non-convex piece; where nothing is, nothin
   expect(pixel(out, 1)).toEqual([0, 0, 0, 0]);
 });
 
-test("hatched hulls show lighter stripes, others none", () => {
+test("hatched hulls show lighter stripes, dotted ones darker dots on a paler ground, others neither", () => {
   const row = Array.from({ length: 20 }, () => [0, 1, 255, 255]);
-  const plain = new Set(Array.from(paintPixels(map(row), red)).filter((_, k) => k % 4 === 1));
-  const hatched = new Set(
-    Array.from(paintPixels(map(row), { ...red, hatched: () => true })).filter((_, k) => k % 4 === 1),
-  );
-  expect(plain.size).toBe(1);
-  expect(hatched.size).toBe(2);
+  const greens = (fill: Fill) => new Set(Array.from(paintPixels(map(row), { ...red, fill: () => fill })).filter((_, k) => k % 4 === 1));
+  expect(greens("solid")).toEqual(new Set([0]));
+  expect(greens("hatched").size).toBe(2);
+  const [dot = 0, ground = 0] = [...greens("dotted")].sort((a, b) => a - b);
+  expect(greens("dotted").size).toBe(2);
+  expect(dot).toBeLessThan(0.75 * ground);
 });

@@ -1,4 +1,5 @@
 // Pictures of the server tell which hull each pixel shows, not its colour; the page colours them.
+import type { Fill } from "./hullColors";
 import type { Pixels } from "./png";
 
 export interface IdMap {
@@ -17,8 +18,7 @@ export type Rgb = readonly [number, number, number];
 /** How each hull is coloured; position -1 stands for non-convex pieces. */
 export interface Paint {
   color(position: number): Rgb;
-  /** Whether it is hatched. */
-  hatched?(position: number): boolean;
+  fill?(position: number): Fill;
 }
 
 export function readIdMap({ width, height, data }: Pixels): IdMap {
@@ -34,25 +34,29 @@ export function readIdMap({ width, height, data }: Pixels): IdMap {
 
 const STRIPE = 10; // pixels from one stripe of a hatching to the next, along the row
 const BARE = 4; // of which the ground shows
+const DOT = 6; // pixels from one dot to the next; each is a square of two
+const PALE = 0.5; // how much white is between dots
 
 /** The picture in colour, as red, green, blue and alpha of each pixel. */
 export function paintPixels(map: IdMap, paint: Paint): Uint8ClampedArray<ArrayBuffer> {
   const out = new Uint8ClampedArray(4 * map.ids.length);
-  const colors = new Map<number, { color: Rgb; hatched: boolean }>();
+  const colors = new Map<number, { color: Rgb; fill: Fill }>();
   for (let k = 0; k < map.ids.length; k++) {
     const coverage = map.coverage[k] ?? 0;
     if (coverage === 0) continue;
     const position = (map.ids[k] ?? 0) - 1;
     let look = colors.get(position);
     if (!look) {
-      look = { color: paint.color(position), hatched: paint.hatched?.(position) ?? false };
+      look = { color: paint.color(position), fill: paint.fill?.(position) ?? "solid" };
       colors.set(position, look);
     }
-    const stripe = look.hatched && ((k % map.width) + Math.floor(k / map.width)) % STRIPE < BARE;
-    const light = (map.shade[k] ?? 0) / 255;
+    const [x, y] = [k % map.width, Math.floor(k / map.width)];
+    const paler = look.fill === "dotted" ? PALE : look.fill === "hatched" && (x + y) % STRIPE < BARE ? 0.72 : 0;
+    const isDot = look.fill === "dotted" && x % DOT < 2 && (y + (Math.floor(x / DOT) % 2) * (DOT / 2)) % DOT < 2;
+    const light = ((map.shade[k] ?? 0) / 255) * (isDot ? 0.7 : 1);
     for (let c = 0; c < 3; c++) {
       const value = (look.color[c as 0 | 1 | 2] ?? 0) * light;
-      out[4 * k + c] = stripe ? value + 0.72 * (255 * light - value) : value;
+      out[4 * k + c] = value + paler * (255 * light - value);
     }
     out[4 * k + 3] = coverage;
   }

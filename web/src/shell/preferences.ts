@@ -22,7 +22,7 @@ const WORDS: Readonly<Record<string, readonly string[]>> = {
   unit: ["m", "mm"],
   thumbnails: ["small", "middle", "large"],
   sort: ["name", "hulls", "unlabelled", "unsure", "changed", "findings", "probability"],
-  colorBy: ["hull", "label", "confidence", "body"],
+  colorBy: ["hull", "label", "body"],
   projection: ["perspective", "orthographic"],
 };
 const RANGES: Readonly<Record<string, readonly [number, number]>> = { ...WIDTHS, split: [0.15, 0.85] };

@@ -62,7 +62,7 @@ test("only outputs get stale", () => {
 });
 
 test("every filter counts its cards", () => {
-  const counts = countByFilter(family(card({ asset: "a", labels: [-1] }), card({ asset: "b", unsure: [0], demonstrated: true })));
+  const counts = countByFilter(family(card({ asset: "a", labels: [-1] }), card({ asset: "b", confidence: [49], demonstrated: true })));
   expect(counts).toMatchObject({ unlabelled: 1, unsure: 1, demonstrated: 1, flagged: 0 });
 });
 

@@ -11,12 +11,18 @@ type Confidence = Readonly<Record<string, ConfidenceView>>;
 /** The place of the label of a hull that has none; one that is no part has another. */
 export const UNLABELLED = -1;
 
+/** In `Card.confidence`, a label that a person, a file or a name gave; one below half is not sure. */
+export const GIVEN = 101;
+const HALF = 50;
+export const isUnsure = (sure: number): boolean => sure !== UNLABELLED && sure < HALF;
+export const countUnsure = (card: Card): number => card.confidence.filter(isUnsure).length;
+
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label === UNLABELLED).length;
 
 const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label === UNLABELLED),
-  unsure: (card) => card.unsure.length > 0,
+  unsure: (card) => card.confidence.some(isUnsure),
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",
   accepted: (card) => card.review === "accepted",
@@ -74,7 +80,7 @@ type Amount = Exclude<Filters["sort"], "name" | "probability">;
 const AMOUNT: Readonly<Record<Amount, (card: Card, engine: string) => number>> = {
   hulls: (card) => card.hulls ?? -1,
   unlabelled,
-  unsure: (card) => card.unsure.length,
+  unsure: countUnsure,
   changed: (card) => (card.after === null || card.hulls === null ? -1 : Math.abs(card.hulls - card.after)),
   findings: (card, engine) => weightOf(card, engine),
 };

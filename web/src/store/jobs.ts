@@ -1,10 +1,13 @@
-// Long work that a person starts: propagating labels, applying the program, checking, exporting.
+// Long work that a person starts: labelling, applying the program, checking, exporting.
 import { api } from "../server/api";
 import type { DownloadJob, Job, JobRequest } from "../wire";
+import { pendingEdits } from "./edits";
+import { endStroke } from "./labels";
+import { useLabelSources } from "./labelSources";
+import { labelProgress } from "./labelWalk";
 import { useRebuildChoice } from "./newAssets";
 import { useProject } from "./project";
 import { reportError } from "./toasts";
-import { givenLabels } from "./unsureHulls";
 
 const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
 
@@ -18,19 +21,28 @@ export function whyNotApply(): string | null {
   return isRunning(jobs, "apply") ? "The program is being applied now." : null;
 }
 
-/** Why labels cannot be propagated, null where they can. */
-export function whyNotPropagate(): string | null {
+/** Why not all hulls can be labelled, null where they can. */
+export function whyNotLabel(): string | null {
   const { cards, project, order, jobs } = useProject.getState();
-  const { hulls, given } = givenLabels(cards);
-  if (isRunning(jobs, "propagate")) return "Labels are being propagated now.";
+  const { files, names } = useLabelSources.getState();
+  const { hulls, labelled, given } = labelProgress(cards);
+  if (isRunning(jobs, "label")) return "The hulls are being labelled now.";
   if (!order.length) return "There are no assets yet.";
+  if (files || names) return null;
   if (!project.vocabulary.length) return "Type the names of the labels first.";
-  if (!given) return "Label the hulls of one asset first.";
-  return given === hulls ? "You or a file labelled every hull." : null;
+  if (!labelled) return "Label the hulls of one asset first.";
+  return given === hulls ? "Every label was given by you, a file or a name." : null;
 }
 
-/** Begins a job, and gives its id; null where it cannot be begun. */
+/** Ends the stroke in hand, and waits until all edits are saved and shown. */
+export async function saveEdits(): Promise<void> {
+  endStroke();
+  await pendingEdits();
+}
+
+/** Begins a job once the edits before it are saved, and gives its id; null where it cannot be begun. */
 async function requestJob(request: JobRequest): Promise<string | null> {
+  await saveEdits();
   try {
     return (await api.startJob(request)).id;
   } catch (error) {
@@ -50,7 +62,7 @@ const applyJob = (assets: readonly string[] | null): JobRequest => ({
 /** Applies the program to all assets, or to some; those that are new are prepared before. */
 export const applyTo = (assets: readonly string[] | null): Promise<boolean> => startJob(applyJob(assets));
 
-export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propagate" });
+export const labelAll = (): Promise<boolean> => startJob({ kind: "label" });
 
 /** Why hulls that span parts cannot be looked for, null where they can. */
 export function whyNotRebuild(): string | null {

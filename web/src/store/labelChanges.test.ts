@@ -2,10 +2,8 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { LabelUpdate } from "../wire";
 import {
-  clearLabelChanges,
   countChanges,
   dismissLabelChanges,
-  highlightLabelChanges,
   labelChangesOf,
   openNextChange,
   watchLabelChanges,
@@ -14,7 +12,7 @@ import { emptyProject, receive, useProject } from "./project";
 import { initialWorkspace, useWorkspace } from "./workspace";
 
 const found: LabelUpdate = {
-  way: "propagate",
+  way: "label-all",
   assets: [
     { asset: "a", new: [0, 1], changed: [], was: [] },
     { asset: "c", new: [2], changed: [0], was: ["leg"] },
@@ -31,19 +29,6 @@ describe("what the last edit of all labels changed", () => {
   it("is counted by hulls and assets", () => {
     expect(countChanges(found, "new")).toEqual({ hulls: 3, assets: 2 });
     expect(countChanges(found, "changed")).toEqual({ hulls: 1, assets: 1 });
-  });
-
-  it("is highlighted in the family, and no longer", () => {
-    highlightLabelChanges(found, "changed");
-    expect(useWorkspace.getState().highlight?.assets).toEqual({ c: [0] });
-    clearLabelChanges();
-    expect(useWorkspace.getState().highlight).toBeNull();
-  });
-
-  it("leaves what others point out", () => {
-    useWorkspace.setState({ highlight: { what: "rule", assets: {} } });
-    clearLabelChanges();
-    expect(useWorkspace.getState().highlight?.what).toBe("rule");
   });
 
   it("leads from asset to asset", () => {

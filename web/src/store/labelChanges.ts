@@ -4,12 +4,10 @@ import type { LabelUpdate, AssetLabelUpdate } from "../wire";
 import { neighbour } from "./family";
 import { oncePer } from "./once";
 import { useProject } from "./project";
-import { openAsset, setHighlight, useWorkspace } from "./workspace";
+import { openAsset, useWorkspace } from "./workspace";
 
 /** Which of the changed hulls are meant. */
 export type ChangeKind = "new" | "changed";
-
-const WHAT = "relabelled";
 
 const rowsOf = oncePer((relabelled: LabelUpdate) => new Map(relabelled.assets.map((one) => [one.asset, one])));
 
@@ -37,25 +35,12 @@ export function watchLabelChanges(changed: () => void): () => void {
 }
 
 /** No longer points out what changed; the labels stay. */
-export function dismissLabelChanges(): void {
-  clearLabelChanges();
-  useProject.setState({ relabelled: null });
-}
+export const dismissLabelChanges = (): void => useProject.setState({ relabelled: null });
 
 /** Hulls of one sort, and on how many assets. */
 export function countChanges({ assets }: LabelUpdate, sort: ChangeKind): { hulls: number; assets: number } {
   const counts = assets.map((one) => one[sort].length).filter(Boolean);
   return { hulls: counts.reduce((sum, count) => sum + count, 0), assets: counts.length };
-}
-
-/** Points out the hulls of one sort in the family. */
-export function highlightLabelChanges({ assets }: LabelUpdate, sort: ChangeKind): void {
-  const having = assets.filter((one) => one[sort].length);
-  setHighlight({ what: WHAT, assets: Object.fromEntries(having.map((one) => [one.asset, one[sort]])) });
-}
-
-export function clearLabelChanges(): void {
-  if (useWorkspace.getState().highlight?.what === WHAT) setHighlight(null);
 }
 
 /** Opens the next asset with hulls of one sort. */

@@ -5,21 +5,20 @@ import { api } from "../server/api";
 import type { AnyEdit } from "../wire";
 import { addLabels, countLabels, endStroke, labelHulls, moveItem, paint } from "./labels";
 import { emptyProject, useProject } from "./project";
-import { applyLabel } from "./unsureHulls";
+import { applyLabel } from "./labelWalk";
 import { sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { initialWorkspace, select, setBrush, useWorkspace } from "./workspace";
 
 const hull = (name: string, label: string | null) => ({ name, label, confidence: 0.3, source: "name" });
 const hulls = [hull("x", "leg"), hull("y", null), hull("z", "panel")];
-const card = (asset: string, unsure: number[]) => ({ asset, labels: [0, -1, 1], unsure });
 let sent: AnyEdit[] = [];
 
 beforeEach(() => {
   sent = [];
   vi.useFakeTimers();
   const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1, is_class: false }));
-  const cards = { a: card("a", [0]), b: card("b", [2]) } as never;
+  const cards = Object.fromEntries(["a", "b"].map((asset) => [asset, sampleCard({ asset, labels: [0, -1, 1], confidence: [30, -1, 80] })]));
   useProject.setState(
     { ...emptyProject, order: ["a", "b"], cards, project: { ...emptyProject.project, vocabulary } },
     true,

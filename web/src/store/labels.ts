@@ -23,13 +23,15 @@ export async function labelHulls(
   return done;
 }
 
+/** The label of a hull that is none of the parts. */
+export const NO_PART = "no part";
+
 /** A scene in which some hulls have a label that a person gave. */
 function withLabel(scene: Scene, names: readonly string[], label: string | null): Scene {
   const given = new Set(names);
-  const sure = label === null ? null : 1;
-  const hulls = scene.hulls.map((hull) =>
-    given.has(hull.name) ? { ...hull, label, confidence: sure, source: label === null ? null : "user" } : hull,
-  );
+  const shown = label === NO_PART ? null : label;
+  const now = label === null ? ({ confidence: null, source: null, look: null } as const) : ({ confidence: 1, source: "user", look: "given" } as const);
+  const hulls = scene.hulls.map((hull) => (given.has(hull.name) ? { ...hull, label: shown, ...now } : hull));
   return { ...scene, hulls };
 }
 

@@ -85,8 +85,8 @@ describe("what the server says", () => {
 });
 
 it("what the last edit of all labels did is there until the server says otherwise", () => {
-  const relabelled = { way: "propagate", assets: [] } as const;
+  const relabelled = { way: "label-all", assets: [] } as const;
   const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
-  expect(told.relabelled?.way).toBe("propagate");
+  expect(told.relabelled?.way).toBe("label-all");
   expect(applyEvent(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
 });

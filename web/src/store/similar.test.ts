@@ -7,7 +7,7 @@ import { emptyProject, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { selectSimilar, useSimilar } from "./similar";
-import { applyLabel } from "./unsureHulls";
+import { applyLabel } from "./labelWalk";
 import { useToasts } from "./toasts";
 import { initialWorkspace, openAsset, openStage, select, selectMore, showSheet, useWorkspace } from "./workspace";
 

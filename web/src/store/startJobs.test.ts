@@ -11,8 +11,8 @@ import {
   exportTo,
   rebuildBodies,
   forecastModel,
+  labelAll,
   makeHulls,
-  propagateLabels,
   whyNotApply,
   whyNotCheck,
   whyNotRebuild,
@@ -41,16 +41,17 @@ describe("a job", () => {
   it("is asked for as the server has it", async () => {
     await applyTo(null);
     await applyTo(["a"]);
-    await propagateLabels();
+    await labelAll();
     await checkAll();
     await rebuildBodies(true);
     await exportTo("out", true);
     await askModel(true, 2.5);
     makeHulls(["a"]);
+    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(8));
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
       { kind: "apply", assets: ["a"], rebuild: true },
-      { kind: "propagate" },
+      { kind: "label" },
       { kind: "check" },
       { kind: "rebuild", dry_run: true },
       { kind: "export", folder: "out", signed_only: true },

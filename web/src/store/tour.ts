@@ -52,7 +52,9 @@ export const TOUR_STOPS: readonly TourStop[] = [
   {
     at: "stages",
     title: "Four stages",
-    text: "The tables are already labelled. Open 2 Demonstrate.",
+    text:
+      "The tables are already labelled. To label your own, press the digit of a label and point at a hull: a click paints it with " +
+      "its outlined look-alikes. P then labels all other hulls, and N shows the least sure ones. Open 2 Demonstrate.",
     done: (_, workspace) => workspace.stage === "demonstrate",
   },
   {

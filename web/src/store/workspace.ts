@@ -12,10 +12,8 @@ export type StageName = (typeof STAGES)[number];
 export const STAGE_OF: Readonly<Record<NextStep["kind"], StageName>> = {
   wait: "label",
   decompose: "label",
-  "label-files": "label",
-  "label-names": "label",
+  "label-all": "label",
   label: "label",
-  propagate: "label",
   "check-labels": "label",
   demonstrate: "demonstrate",
   learn: "learn",
@@ -33,7 +31,7 @@ export type Showing =
   | { kind: "steps"; steps: number }
   | { kind: "result"; of: "program" | "output" };
 
-export type ColorBy = "hull" | "label" | "confidence" | "body";
+export type ColorBy = "hull" | "label" | "body";
 export type Tool = "select" | "box" | "lasso" | "cut" | "landmark" | "ruler";
 export type StandardView = "front" | "back" | "right" | "left" | "top" | "bottom" | "iso";
 export type Compare = "off" | "slider" | "side";

@@ -23,7 +23,7 @@ export function Note({ mood = "plain", children }: { mood?: "plain" | "good" | "
   );
 }
 
-/** A swatch of a label's colour. */
-export function Swatch({ color, hatched = false }: { color: string; hatched?: boolean }) {
-  return <span className={css.swatch} data-hatched={hatched} style={{ background: color }} aria-hidden />;
+/** A swatch of a label's colour; fill: as hulls have it. */
+export function Swatch({ color, fill = "solid" }: { color: string; fill?: "solid" | "dotted" | "hatched" }) {
+  return <span className={css.swatch} data-fill={fill} style={{ backgroundColor: color }} aria-hidden />;
 }

@@ -17,7 +17,7 @@ from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
-from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, label_colors
+from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, label_colors, look_of
 from meshforge.symbolic import find_unchanged
 
 MOST_PICTURED = 120
@@ -212,8 +212,9 @@ def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, s
         entries.append(_LegendRow(None, "", "nothing is labelled: each hull has its own colour"))
     elif before[None] or after[None]:
         entries.append(_LegendRow.of("no label", UNLABELLED, before[None], after[None]))
-    if any(hull.confidence is not None and hull.confidence < UNSURE for mesh in meshes for hull in mesh.hulls):
-        entries.append(_LegendRow(None, "", "hatched: an unsure label"))
+    looks = {look_of(hull.annotation) for mesh in meshes for hull in mesh.hulls}
+    marks = {"guessed": "dotted: a guessed label", "unsure": "hatched: an unsure label"}
+    entries += [_LegendRow(None, "", text) for look, text in marks.items() if look in looks]
     if blamed:
         entries.append(_LegendRow(SELECTED, "", "named by a finding, the rest pale"))
     return entries

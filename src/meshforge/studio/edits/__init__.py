@@ -8,8 +8,6 @@ from meshforge.studio.edits import assets, program, replies
 
 AnyEdit = Annotated[
     assets.LabelHulls
-    | assets.LabelFromFiles
-    | assets.LabelFromNames
     | assets.SetVocabulary
     | assets.RenameLabel
     | program.SetSteps

@@ -37,28 +37,6 @@ class LabelHulls(Edit):
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
 
-class LabelFromFiles(Edit):
-    """Take over the labels files beside the assets."""
-
-    kind: Literal["label-files"] = "label-files"
-    touches = (Layout.settings, Layout.labels, Layout.label_sources)
-    title = "labels taken over from files"
-
-    def apply(self, project: Project) -> None:
-        project.label("file")
-
-
-class LabelFromNames(Edit):
-    """Label hulls without a label by the words in their names and in the names of their bodies."""
-
-    kind: Literal["label-names"] = "label-names"
-    touches = (Layout.labels, Layout.label_sources)
-    title = "labels taken from names"
-
-    def apply(self, project: Project) -> None:
-        project.label("names")
-
-
 class SetVocabulary(Edit):
     """Set the labels that hulls can have, in the order of their colours."""
 

@@ -1,18 +1,29 @@
-"""Jobs before the program runs: decomposing, propagating labels, and asking a model (and what that would cost)."""
+"""Jobs before the program runs: decomposing, labelling, and asking a model (and what that would cost)."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from typing import Literal
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
-from meshforge.common import MeshForgeError, ProjectError, format_share, join_names, pluralize, relative_name
+from meshforge.common import MeshForgeError, format_share, join_names, pluralize, relative_name
 from meshforge.geometry import CoacdSettings, VhacdSettings
-from meshforge.label_model import evidence_of
-from meshforge.labels import LabelOutcome, LabelResult, VlmForecast, VlmLabeler, VlmResult, check_vlm_settings
+from meshforge.labels import (
+    AllLabeler,
+    LabelFamily,
+    LabelOutcome,
+    LabelProposal,
+    LabelResult,
+    Tally,
+    VlmForecast,
+    VlmLabeler,
+    VlmResult,
+    check_vlm_settings,
+)
 from meshforge.project import (
     MADE_ANEW,
     REBUILD_DEFAULTS,
+    SOURCE_WORDS,
     DecompositionPlan,
     PreparationResult,
     Project,
@@ -118,41 +129,46 @@ def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
     return f"No hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
 
 
-def start_propagate(session: Session) -> Job:
-    """Start to propagate labels. Raises ProjectError: no vocabulary, or no label that a person or a file gave."""
-    project = session.project
-    _check_labels(project)
-    began, used = _preparation_digests(project), session.history.state.undoable
-
-    @contextmanager
-    def record(best: str | None) -> Iterator[None]:
-        edit = {"kind": "propagate", "used": used, "next": best}
-        with session.record("labels propagated", edit, [Layout.labels.path(project.folder)], uuid4().hex):
-            if _preparation_digests(session.project) != began:
-                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
-            yield
+def start_label(session: Session) -> Job:
+    """Start to label all hulls from files, names, and the labels that there are, weighed together."""
+    project, labeler = session.project, _StudioLabeler()
+    began, used = _preparation_digests(project), session.count_edits()
+    files = [file.path(project.folder) for file in (Layout.settings, Layout.labels, Layout.label_sources)]
 
     def work(progress: JobProgress) -> str:
-        options = ExecutionOptions(stop=progress.is_stopped)
-        result = project.label("propagate", execution=options, stage=progress.stage, write_block=record)
-        for report in result.outcomes:
-            progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
-        if not any(report.taken for report in result.outcomes):
+        with ExitStack() as block:
+
+            @contextmanager
+            def record(best: str | None) -> Iterator[None]:
+                edit = {"kind": "label-all", "used": used, "next": best}
+                block.enter_context(session.record("hulls labelled", edit, files, uuid4().hex))
+                if _preparation_digests(session.project) != began:
+                    raise ConflictError("assets or their hulls were changed meanwhile", remedy="Label again.")
+                if not project.vocabulary:
+                    project.set_vocabulary(labeler.words)
+                yield
+
+            options = ExecutionOptions(stop=progress.is_stopped)
+            result = project.label(labeler, execution=options, stage=progress.stage, write_block=record)
+        for outcome in result.outcomes:
+            progress.add_line(_labels_line(outcome, [f"{outcome.unsure} unsure"] if outcome.unsure else []))
+        if not any(outcome.taken for outcome in result.outcomes):
             session.label_changes.note_no_change(used, result.next)
             session.refresh_queue.add()
-        return _describe_propagation(result)
+        return " ".join(_describe_labels(result, project.tally_labels()))
 
-    assets = project.assets()
-    return session.jobs.start("propagate", "Propagating labels", len(assets), work, stays="no label was changed.")
+    return session.jobs.start("label", "Labelling", len(project.assets()), work, stays="no label was changed.")
 
 
-def _check_labels(project: Project) -> None:
-    """Raises ProjectError, before anything long starts, where there is nothing to propagate."""
-    if not project.vocabulary:
-        raise ProjectError("the vocabulary is empty", remedy="Say first what hulls can be.")
-    labels = (label for asset in project.assets() for label in project.labels(asset).labels.values())
-    if not any(map(evidence_of, labels)):
-        raise ProjectError("there is no label to propagate", remedy="Label the hulls of one asset first.")
+class _StudioLabeler(AllLabeler):
+    """Keeps the vocabulary that files gave, so that it is set in the same step of the history as the labels."""
+
+    words: tuple[str, ...] = ()
+
+    def propose(self, family: LabelFamily) -> LabelProposal:
+        proposal = super().propose(family)
+        self.words = proposal.vocabulary
+        return proposal
 
 
 def _preparation_digests(project: Project) -> dict[str, str | None]:
@@ -160,14 +176,21 @@ def _preparation_digests(project: Project) -> dict[str, str | None]:
     return {asset: record_digest(project.layout.preparation(asset)) for asset in project.assets()}
 
 
-def _describe_propagation(result: LabelResult) -> str:
-    taken = sum(report.taken for report in result.outcomes)
-    if not taken:
-        return "Every label stays as it is."
-    assets = pluralize(sum(report.taken > 0 for report in result.outcomes), "asset")
-    unsure = sum(report.unsure for report in result.outcomes)
-    reason = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
-    return f"{pluralize(taken, 'label')} on {assets}; {reason}."
+def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
+    """What was done, from which sources all labels are now, and what these disagree about, a sentence each."""
+    taken, unsure = (sum(getattr(one, name) for one in result.outcomes) for name in ("taken", "unsure"))
+    assets = pluralize(sum(outcome.taken > 0 for outcome in result.outcomes), "asset")
+    new = f"{pluralize(taken, 'label')} on {assets}" if taken else "Every label stays as it is"
+    yield f"{new}; {unsure or 'none'} unsure."
+    shares = [f"{SOURCE_WORDS[one.source]} {one.sure + one.likely + one.unsure:,}" for one in tally.shares]
+    yield f"All labels by source: {', '.join(shares)}."
+    if found := tally.contradictions:
+        named = [f"{one.hull} of {one.asset} is {one.label}, {one.name!r} says {one.means}" for one in found]
+        what = "1 label contradicts a name" if len(found) == 1 else f"{len(found):,} labels contradict names"
+        yield f"{what}: {join_names(named, most=3)}."
+    for one, other in result.alike:
+        yield f"{one} and {other} are on hulls that look alike: are they one part?"
+    yield from (f"{note}." for note in result.notes)
 
 
 def start_forecast(session: Session, request: ForecastJob) -> Job:

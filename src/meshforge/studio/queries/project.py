@@ -8,6 +8,7 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.labels import Endpoint, check_vlm_settings
 from meshforge.language import BaseExtractor, Is, Orient, explain, show_label
 from meshforge.project import (
+    NO_LABEL,
     AssetStatus,
     FamilyState,
     LastRun,
@@ -153,7 +154,7 @@ def _list_feedback(project: Project) -> Iterator[wire.AnswerView]:
 
 
 _SHARED = (
-    *("hulls", "unsure", "given", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
+    *("hulls", "confidence", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
     *("manual_edits", "sources", "prepared"),
 )
 """What a card has as the status of an asset has it."""
@@ -186,8 +187,8 @@ def build_card(
 
 def _place_of(label: Label | None, places: Mapping[str, int]) -> int:
     if label is None:
-        return -1
-    return -2 if label.name == NO_PART else places.get(label.name, -1)
+        return NO_LABEL
+    return wire.NO_PART if label.name == NO_PART else places.get(label.name, NO_LABEL)
 
 
 def model_of(project: Project) -> Model | None:

@@ -88,7 +88,7 @@ class Refresher:
 
     def _build_view(self, status: Status) -> ProjectView:
         project, cards = self._project(), self._pages.cards
-        propagation = self._label_changes.propagation_state(project, cards)
+        propagation = self._label_changes.propagation_state(cards)
         new, damage = self._new_assets.find(project, cards)
         problem = status.problem or damage
         offers = partial(find_offers, project, self._offers, self._pages.readable)

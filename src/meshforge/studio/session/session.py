@@ -188,6 +188,11 @@ class Session:
         paths = (file.path(self.project.folder, asset) for file in list_files() if file.hulls)
         return self.record(title, {"asset": asset}, paths, group)
 
+    def count_edits(self) -> int:
+        """Return how many edits are done, as soon as the one that is being made is: what is read then has them all."""
+        with self._mutex:
+            return self.history.state.undoable
+
     def note_output(self, asset: str) -> None:
         """Record that the output of an asset was written."""
         self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])

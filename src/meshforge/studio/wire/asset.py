@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from meshforge.geometry import Shape
+from meshforge.rendering import LabelLook, look_of
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.program import ActionView
 
@@ -21,14 +22,15 @@ def _kind_of_primitive(shape: Shape) -> str | None:
 
 class HullView(Wire):
     """A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
-    primitive: its kind if it is one; source: who gave the label; parent: the hull of the file that a new hull inherits
-    from."""
+    primitive: its kind if it is one; source: who gave the label; look: whether it was given, null for no label; parent:
+    the hull of the file that a new hull inherits from."""
 
     name: str
     body: str
     label: str | None = None
     confidence: float | None = None
     source: str | None = None
+    look: Annotated[LabelLook | None, Field(validation_alias="annotation"), BeforeValidator(look_of)]
     volume: float = 0.0
     vertices: Annotated[int, BeforeValidator(len)]
     faces: Annotated[int, BeforeValidator(len)]

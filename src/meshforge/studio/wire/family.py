@@ -14,12 +14,16 @@ from meshforge.studio.wire.requests import HullOfAsset
 Verdict = Literal["accepted", "wrong"]
 
 
+NO_PART = -2
+"""In `Card.labels`, of a hull that is none of the parts."""
+
+
 class Card(Wire):
     """One asset in the gallery.
 
     hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
-    place in the vocabulary, -1 for none, -2 for one that is none of the parts; unsure: positions of hulls whose label
-    is not sure; given: how many labels a person or a file gave.
+    place in the vocabulary, or one of `NO_LABEL` and `NO_PART`; confidence: as in `AssetStatus`, below 50 where it is
+    unsure.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
@@ -31,8 +35,7 @@ class Card(Wire):
     asset: str
     hulls: int | None = None
     labels: tuple[int, ...] = ()
-    unsure: tuple[int, ...] = ()
-    given: int = 0
+    confidence: tuple[int, ...] = ()
     demonstrated: bool = False
     output: OutputState = "none"
     after: int | None = None

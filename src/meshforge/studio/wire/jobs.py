@@ -6,10 +6,10 @@ from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 JobKind = Literal[
-    "read", "apply", "decompose", "rebuild", "export", "add", "propagate", "forecast", "ask", "check", "download"
+    "read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "download"
 ]
 
-LabelEditKind = Literal["propagate", "label-files", "label-names", "label-vlm"]
+LabelEditKind = Literal["label-all", "label-vlm"]
 
 
 class JobLine(Wire):
@@ -75,10 +75,10 @@ class ExportJob(Wire):
     folder: str = "export"
 
 
-class PropagateJob(Wire):
-    """Propagate the labels of people and files to all other hulls of the family."""
+class LabelJob(Wire):
+    """Label all hulls of the family from files, names, and the labels that there are, weighed together."""
 
-    kind: Literal["propagate"] = "propagate"
+    kind: Literal["label"] = "label"
 
 
 class ForecastJob(Wire):
@@ -111,9 +111,7 @@ class DownloadJob(Wire):
     signed_only: bool = True
 
 
-JobRequest = (
-    ApplyJob | DecomposeJob | RebuildJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
-)
+JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob
 
 
 class AssetLabelUpdate(Wire):

@@ -1,55 +1,29 @@
-// The ways to get labels other than by hand, each with what it would give: from labelled assets, from files, from
-// names, from a vision-language model.
-import { ArrowRight, Eye, FileText, type LucideIcon, Square, Type, Waypoints } from "lucide-react";
-import { type ReactNode, useEffect, useState } from "react";
-import { api } from "../../server/api";
-import { perform } from "../../store/edits";
-import { askModel, cancelJob, forecastModel, propagateLabels, useJob, whyNotPropagate } from "../../store/jobs";
-import { countReadable, useProject } from "../../store/project";
-import { reportError } from "../../store/toasts";
-import { givenLabels } from "../../store/unsureHulls";
-import { countText } from "../../store/words";
-import { openAsset, useWorkspace } from "../../store/workspace";
-import { Button, IconButton } from "../../ui/Button";
+// The ways to get labels other than by hand, each with what it would use: all that is there, and a vision-language model.
+import { ArrowRight, Eye, type LucideIcon, Square, Waypoints } from "lucide-react";
+import { type ReactNode, useState } from "react";
+import { askModel, cancelJob, forecastModel, labelAll, useJob, whyNotLabel } from "../../store/jobs";
+import { useFreshSources, useLabelSources } from "../../store/labelSources";
+import { labelProgress } from "../../store/labelWalk";
+import { useProject } from "../../store/project";
+import { capitalize, countText, shortName } from "../../store/words";
+import { openAsset } from "../../store/workspace";
+import { Button } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
-import type { Job, LabelSources, Model } from "../../wire";
-import { JobNote } from "../review/JobProgress";
+import type { Job, Model } from "../../wire";
+import { JobLines, JobNote } from "../review/JobProgress";
 import css from "./getLabels.module.css";
 
 export function GetLabels() {
-  const { files, names, model } = useSources();
-  const beside = files ? `beside ${countText(files, "asset")}` : "";
-  const named = names ? `of ${countText(names, "hull")} without a label` : "";
+  const { model } = useFreshSources();
   return (
     <Section title="Get labels">
       <ul className={css.ways}>
-        <FromAssets />
-        <Ready icon={FileText} title="From files" kind="label-files" text={beside} tip="Use the labels files beside the assets" />
-        <Ready icon={Type} title="From names" kind="label-names" text={named} tip="Use labels found in the names of hulls and bodies" />
+        <FromAll />
         <FromModel key={model?.name} model={model} />
       </ul>
     </Section>
   );
-}
-
-/** How much there is, asked anew when labels or assets change, and as more assets are read. */
-function useSources(): LabelSources {
-  const [sources, setSources] = useState<LabelSources>({ files: 0, names: 0, model: null });
-  const vocabulary = useProject((state) => state.project.vocabulary);
-  const assets = useProject((state) => state.order.length);
-  const read = useProject((state) => countReadable(state.cards));
-  useEffect(() => {
-    let is = true;
-    const timer = setTimeout(() => {
-      api.labelSources().then((found) => is && setSources(found), reportError);
-    }, 250);
-    return () => {
-      is = false;
-      clearTimeout(timer);
-    };
-  }, [vocabulary, assets, read]);
-  return sources;
 }
 
 interface SourceRowProps {
@@ -77,84 +51,61 @@ function SourceRow({ icon: Icon, title, text, action, children }: SourceRowProps
   );
 }
 
-interface ReadyProps extends Pick<SourceRowProps, "icon" | "title"> {
-  kind: "label-files" | "label-names";
-  /** What there is to take, empty for nothing. */
-  text: string;
-  tip: string;
+const ALL_TITLE = "From all that is there";
+
+/** Labels from files, names, and the labels that there are, weighed together. */
+function FromAll() {
+  const job = useJob("label");
+  if (job?.state !== "running") return <LabelReady job={job} />;
+  const counted = job.done < job.total; // comparing all hulls cannot be counted
+  const text = counted ? `${capitalize(job.doing || "reading")}: ${job.done} of ${job.total}` : "Comparing all hulls…";
+  return <Running icon={Waypoints} title={ALL_TITLE} job={job} counted={counted} stop="Stop labelling" text={text} />;
 }
 
-/** Labels that are there and need only be taken. */
-function Ready({ icon, title, kind, text, tip }: ReadyProps) {
-  if (!text) return null;
-  const take = (
-    <Button onClick={() => void perform({ kind })} aria-label={`${title} ${text}: take`} tip={tip}>
-      Take
-    </Button>
-  );
-  return <SourceRow icon={icon} title={title} text={text} action={take} />;
-}
-
-const PROPAGATE_TITLE = "From labelled assets";
-
-/** Labels propagated from the assets that a person or a file has labelled to all others. */
-function FromAssets() {
-  const job = useJob("propagate");
-  if (job?.state !== "running") return <PropagateReady job={job} />;
-  const reading = job.done < job.total; // comparing all hulls cannot be counted
-  const text = reading ? `Reading assets: ${job.done} of ${job.total}` : "Comparing all hulls…";
-  return <Running icon={Waypoints} title={PROPAGATE_TITLE} job={job} counted={reading} stop="Stop propagating labels" text={text} />;
-}
-
-function PropagateReady({ job }: { job: Job | null }) {
-  const why = useProject(whyNotPropagate);
-  const given = useGiven();
+function LabelReady({ job }: { job: Job | null }) {
+  const why = useProject(whyNotLabel);
   const carried = useProject((state) => state.project.carried);
-  const unused = carried?.unused ?? 0;
-  const carry = (
+  const there = useSourceTexts();
+  const label = (
     <Button
-      look={why === null && (!carried || unused > 0) ? "primary" : "plain"}
+      look={why === null && there.length > 0 ? "primary" : "plain"}
       disabled={why !== null}
-      onClick={() => void propagateLabels()}
-      tip="Label all other hulls like the labelled hulls that they resemble most"
+      onClick={() => void labelAll()}
+      tip="Label all hulls from files, names, and the labelled hulls that they resemble"
       keys="P"
     >
       <span>
-        Propagate<span className="visually-hidden"> labels</span>
+        Label<span className="visually-hidden"> all hulls</span>
         {carried && " again"}
       </span>
     </Button>
   );
-  const text = why ?? (carried ? sinceThen(unused) : given);
+  const lost = job?.lines.filter(({ status }) => status === "failed") ?? [];
+  const isPresent = job?.state !== "done" || (carried && !carried.unused);
   return (
-    <SourceRow icon={Waypoints} title={PROPAGATE_TITLE} text={text} action={carry}>
-      {(job?.state === "failed" || job?.state === "cancelled") && <JobNote job={job} />}
-      {carried?.next && <Best asset={carried.next} />}
+    <SourceRow icon={Waypoints} title={ALL_TITLE} text={why ?? (there.join(", ") || "All that is there is used")} action={label}>
+      {job && isPresent && <JobNote job={job} />}
+      {job && isPresent && <JobLines lines={lost} />}
+      {carried?.next && (
+        <Button look="quiet" icon={ArrowRight} onClick={() => openAsset(carried.next)} tip="It helps most if you label it">
+          Label next: {shortName(carried.next)}
+        </Button>
+      )}
     </SourceRow>
   );
 }
 
-const sinceThen = (unused: number): string =>
-  unused ? `${countText(unused, "label")} not propagated yet` : "All your labels are propagated";
-
-function useGiven(): string {
-  const { given, assets } = givenLabels(useProject((state) => state.cards));
-  return `${countText(given, "label")} on ${countText(assets, "asset")}`;
-}
-
-/** The asset that helps most if you label it. */
-function Best({ asset }: { asset: string }) {
-  const isOpen = useWorkspace((workspace) => workspace.asset === asset);
-  return (
-    <div className={css.best}>
-      <span title={`${asset} helps most if you label it`}>
-        Label next: <b>{asset}</b>
-      </span>
-      {!isOpen && (
-        <IconButton icon={ArrowRight} name={`Open ${asset} and label it`} onClick={() => openAsset(asset)} />
-      )}
-    </div>
-  );
+/** What there is that is not used yet. */
+function useSourceTexts(): string[] {
+  const { files, names } = useLabelSources();
+  const { given, assets } = labelProgress(useProject((state) => state.cards));
+  const carried = useProject((state) => state.project.carried);
+  const labels = carried ? carried.unused : given;
+  return [
+    files ? `labels files beside ${countText(files, "asset")}` : "",
+    names ? `names of ${countText(names, "hull")}` : "",
+    labels ? (carried ? `${countText(labels, "label")} not used yet` : `${countText(labels, "label")} on ${countText(assets, "asset")}`) : "",
+  ].filter(Boolean);
 }
 
 /** A source that is being asked, with what counts so far; counted: whether that can be counted. */

@@ -1,10 +1,10 @@
-// The stage in which hulls get labels: the vocabulary, what is not sure, and ways to get labels.
+// The stage in which hulls get labels: the vocabulary, the walk through labels that nobody gave, and ways to get labels.
 import { Check, ChevronRight } from "lucide-react";
-import { sureText } from "../../store/assessment";
+import { fillOf } from "../../pictures/hullColors";
+import { confirmLabels, labelProgress, placeInWalk, walk } from "../../store/labelWalk";
 import { useProject } from "../../store/project";
 import { type SceneHull, useScenes } from "../../store/scenes";
-import { confirmLabels, goToUnsure, isUnsure, labelProgress } from "../../store/unsureHulls";
-import { countText, sourceText } from "../../store/words";
+import { sourceText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Note, Section, Swatch } from "../../ui/Section";
@@ -16,62 +16,67 @@ export function LabelPanel() {
   return (
     <div className={css.panel} data-tour="labels">
       <Vocabulary />
-      <UnsureHulls />
+      <Walk />
       <GetLabels />
     </div>
   );
 }
 
-/** Hulls whose label is not sure, one after the other, and the one that is selected. */
-function UnsureHulls() {
-  const cards = useProject((state) => state.cards);
-  const { unsure, assets } = labelProgress(cards);
-  const doubtful = useUnsureHull();
-  if (!unsure) return null;
-  const next = (
-    <Button icon={ChevronRight} onClick={() => void goToUnsure()} tip="Next unsure hull" keys="N">
+/** How many labels are given, guessed and unsure; hulls of which nobody gave it, one after the other, and the one selected. */
+function Walk() {
+  const { hulls, labelled, given, guessed, unsure } = labelProgress(useProject((state) => state.cards));
+  const inHand = useHullInHand();
+  if (!hulls) return null;
+  const next = given < hulls && (
+    <Button icon={ChevronRight} onClick={() => void walk()} tip="The hull whose label is least sure, then the next" keys="N">
       Next
     </Button>
   );
+  const counts = [[given, "given"], [guessed, "guessed"], [unsure, "unsure"], [hulls - labelled, "without a label"]] as const;
+  const title = counts.flatMap(([count, what]) => (count ? `${count.toLocaleString("en-GB")} ${what}` : [])).join(", ");
   return (
-    <Section title={`${countText(unsure, "hull")} unsure on ${countText(assets, "asset")}`} aside={next}>
-      {doubtful && <UnsureHull hull={doubtful} />}
+    <Section title={title} aside={next}>
+      {inHand && <HullInHand {...inHand} />}
     </Section>
   );
 }
 
-function UnsureHull({ hull }: { hull: SceneHull }) {
+interface InHand {
+  readonly hull: SceneHull;
+  readonly at: number;
+  readonly of: number;
+}
+
+function HullInHand({ hull, at, of }: InHand) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === hull.label)?.color);
-  const sure = hull.confidence === null ? null : sureText(hull.confidence);
+  const sure = hull.confidence === null ? "no label" : `${hull.confidence.toFixed(2)} sure`;
   return (
     <Note>
       <div className={css.doubtful}>
-        <Swatch color={color ?? "var(--hull-unlabelled)"} hatched={(hull.confidence ?? 1) < 0.5} />
-        <span>
-          <strong>{hull.label}</strong>? {hull.name}
+        <Swatch color={color ?? "var(--hull-unlabelled)"} fill={fillOf(hull)} />
+        <span role="status">
+          <strong>{hull.label ?? (hull.look ? "no part" : "No label")}</strong>
+          {hull.look && "?"} {hull.name}
           <br />
-          {[sure, sourceText(hull.source ?? "")].filter(Boolean).join(", ")}
+          hull {(at + 1).toLocaleString("en-GB")} of {of.toLocaleString("en-GB")}, {[sure, hull.source && sourceText(hull.source)].filter(Boolean).join(", ")}
         </span>
-        <Button
-          look="primary"
-          icon={Check}
-          onClick={() => void confirmLabels()}
-          tip="Confirm the label and go to the next"
-          keys="Enter"
-        >
-          Right
-        </Button>
+        {hull.look && (
+          <Button look="primary" icon={Check} onClick={() => void confirmLabels()} tip="Confirm the label and go to the next" keys="Enter">
+            Right
+          </Button>
+        )}
       </div>
-      <p className={css.hint}>Not right? Press its number, or click the label.</p>
+      <p className={css.hint}>{hull.look ? "Not right? Press" : "Press"} its number, or click the label.</p>
     </Note>
   );
 }
 
-/** The hull that alone is selected, where its label is not sure. */
-function useUnsureHull(): SceneHull | null {
+/** The hull that alone is selected, where nobody gave its label. */
+function useHullInHand(): InHand | null {
   const name = useWorkspace((workspace) => (workspace.selection.size === 1 ? [...workspace.selection][0] : undefined));
   const scene = useScenes((state) => state.scene);
-  const card = useProject((state) => state.cards[scene?.asset ?? ""]);
-  if (!scene || name === undefined || !isUnsure(card, scene.view.hulls, name)) return null;
-  return scene.hulls.find((hull) => hull.name === name && hull.label !== null) ?? null;
+  const cards = useProject((state) => state.cards);
+  const hull = scene?.hulls.find((one) => one.name === name);
+  const place = scene && hull ? placeInWalk(cards, scene.asset, scene.view.hulls, hull.name) : null;
+  return hull && place ? { hull, ...place } : null;
 }

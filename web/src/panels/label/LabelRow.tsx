@@ -4,7 +4,7 @@ import { type KeyboardEvent, useEffect, useState } from "react";
 import { perform } from "../../store/edits";
 import { selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
-import { applyLabel } from "../../store/unsureHulls";
+import { applyLabel } from "../../store/labelWalk";
 import { countText } from "../../store/words";
 import { setFilters, setHighlight, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";

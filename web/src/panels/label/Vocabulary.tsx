@@ -4,8 +4,8 @@ import { type FormEvent, useMemo, useState } from "react";
 import { perform } from "../../store/edits";
 import { addLabels, countLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
-import { applyLabel, labelProgress } from "../../store/unsureHulls";
-import { countText, listText } from "../../store/words";
+import { applyLabel } from "../../store/labelWalk";
+import { listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
@@ -44,7 +44,6 @@ export function Vocabulary() {
         {vocabulary.length > 0 && <NoLabel />}
       </ul>
       <AddLabels names={names} />
-      {vocabulary.length > 0 && <Progress />}
     </Section>
   );
 }
@@ -100,32 +99,5 @@ function AddLabels({ names }: { names: readonly string[] }) {
         </p>
       )}
     </form>
-  );
-}
-
-/** How much of the family is labelled. */
-function Progress() {
-  const cards = useProject((state) => state.cards);
-  const { hulls, labelled } = labelProgress(cards);
-  if (!hulls) return null;
-  const text =
-    labelled < hulls
-      ? `${labelled.toLocaleString("en-GB")} of ${countText(hulls, "hull")} labelled`
-      : "Every hull is labelled";
-  return (
-    <div className={css.progress}>
-      <div
-        className={css.bar}
-        role="progressbar"
-        aria-label="Labelled hulls"
-        aria-valuemin={0}
-        aria-valuemax={hulls}
-        aria-valuenow={labelled}
-        aria-valuetext={text}
-      >
-        <span style={{ width: `${(100 * labelled) / hulls}%` }} />
-      </div>
-      {text}
-    </div>
   );
 }

@@ -16,7 +16,7 @@ import { readThemeColors, type ThemeColors } from "./themeColors";
 
 const boxes = [box("a", [0, 0, 0]), box("b", [2, 0, 0], [1, 2, 3])];
 const FRAME = { width: 400, height: 300, pixel: 2, explode: 0, eye: { at: [9, 8, 7], parallel: false } } as const;
-const plain = { color: new Color("#102030"), hatched: false, visible: true, selected: 0, hover: 0, role: ROLE.plain };
+const plain = { color: new Color("#102030"), fill: "solid" as const, visible: true, selected: 0, hover: 0, role: ROLE.plain };
 let ink: ThemeColors;
 
 /** The faces, and the lines, that an object holds. */

@@ -24,10 +24,10 @@ export interface Appearance {
 
 export function hullLooks(scene: Scene, now: Appearance): HullLook[] {
   return scene.hulls.map((hull) => {
-    const { color, hatched } = now.tone(hull);
+    const { color, fill } = now.tone(hull);
     return {
       color: color === null ? now.ink.unlabelled : colorOf(color),
-      hatched,
+      fill,
       visible: !now.hidden.has(hull.name),
       selected: now.selection.has(hull.name) ? 1 : 0,
       hover: now.hover === hull.name ? 1 : now.lit.has(hull.name) ? 0.7 : 0,

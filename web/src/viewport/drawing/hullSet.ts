@@ -2,14 +2,15 @@
 import { BufferAttribute, BufferGeometry, type Color, Group, LineSegments, Mesh } from "three";
 import { EDGE, type Edges, edgesOf, type Outline } from "../geometry/edges";
 import { type Facets, facetsOf, type MergedShapes, mergeShapes, middleOf, type Point } from "../geometry/triangles";
+import type { Fill } from "../../pictures/hullColors";
 import type { Shape } from "../../server/packet";
-import { ByteTable, hullMaterial, lineMaterial, type SharedUniforms, shareUniforms } from "./hullShader";
+import { ByteTable, FILL_BYTES, hullMaterial, lineMaterial, type SharedUniforms, shareUniforms } from "./hullShader";
 import type { ThemeColors } from "./themeColors";
 
 /** How one hull looks. role: one of ROLE; selected, hover: 0 to 1. */
 export interface HullLook {
   readonly color: Color;
-  readonly hatched: boolean;
+  readonly fill: Fill;
   readonly visible: boolean;
   readonly selected: number;
   readonly hover: number;
@@ -63,9 +64,9 @@ export class HullSet {
 
   paint(look: (k: number) => HullLook): void {
     this.names.forEach((_, k) => {
-      const { color, hatched, visible, selected, hover, role } = look(k);
+      const { color, fill, visible, selected, hover, role } = look(k);
       const [r, g, b] = bytes(color);
-      this.colors.set(k, r, g, b, hatched ? 0 : 255);
+      this.colors.set(k, r, g, b, FILL_BYTES[fill]);
       this.states.set(k, visible ? 255 : 0, 255 * selected, role, 255 * hover);
       this.visible[k] = visible;
     });

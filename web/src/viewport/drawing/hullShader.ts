@@ -19,6 +19,9 @@ const WIDTH = 256;
 /** What is to become of a hull, as the third byte of its state has it. */
 export const ROLE = { plain: 0, washed: 1, removed: 2 } as const;
 
+/** How a hull's colour is laid on, as the fourth byte of it has it. */
+export const FILL_BYTES = { hatched: 0, dotted: 128, solid: 255 } as const;
+
 /** What all materials of one set of hulls share; changing a value changes it for all. */
 export interface SharedUniforms {
   readonly colors: IUniform;
@@ -122,7 +125,11 @@ const FACE_VERTEX = /* glsl */ `
     float share = max(0.26 * state.g, 0.16 * state.a);
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = color.rgb;
-    if (base.a < 0.5) stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
+    if (base.a < 0.75) {
+      vec3 paler = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), base.a < 0.25 ? 0.62 : 0.4), glow, share) * lit, 1.0)).rgb;
+      if (base.a < 0.25) stripe = paler;
+      else { color.rgb = paler; stripe = 0.7 * paler; }
+    }
     clipAt(placed(state));
     gl_Position = projected(state);
   }
@@ -142,11 +149,13 @@ const FACE_FRAGMENT = /* glsl */ `
     #ifdef CUT_OPEN
       if (fract((gl_FragCoord.x - gl_FragCoord.y) / pixel / 6.0) < 0.2) gl_FragColor.rgb *= 0.8;
     #endif
-    if (role < ${ROLE.removed}.0 && color.a > 0.5) return;
+    if (role < ${ROLE.removed}.0 && color.a > 0.75) return;
     vec2 spot = gl_FragCoord.xy / pixel;
     vec2 cell = mod(floor(spot / 2.0), 2.0);
     if (role == ${ROLE.removed}.0 && cell.x != cell.y) discard;
-    if (color.a < 0.5 && fract((spot.x + spot.y) / 9.0) < 0.4) gl_FragColor.rgb = stripe;
+    if (color.a < 0.25 && fract((spot.x + spot.y) / 9.0) < 0.4) gl_FragColor.rgb = stripe;
+    vec2 grid = fract(vec2(spot.x + spot.y, spot.x - spot.y) / 10.0) - 0.5;
+    if (color.a > 0.25 && color.a < 0.75 && dot(grid, grid) < 0.022) gl_FragColor.rgb = stripe;
   }
 `;
 

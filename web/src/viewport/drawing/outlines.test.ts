@@ -2,7 +2,7 @@
 // (WCAG 2.2, 1.4.11), in both themes, and so do both from each other.
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { CONFIDENCE, PALETTE } from "../../pictures/hullColors";
+import { PALETTE } from "../../pictures/hullColors";
 import { contrast, dark, light, linear, luminance, ratio } from "../../styles/contrast.test-help";
 import { OUTLINES } from "./outlines";
 
@@ -21,7 +21,7 @@ describe.each([
   ["dark", dark],
 ] as const)("in the %s theme", (_, theme) => {
   const grounds = ["viewport-top", "viewport-bottom", "hull-unlabelled", "hull-pale", "hull-opaque", "preview", "removed", "outline-selected"];
-  const colors = [...LABELS, ...PALETTE, ...CONFIDENCE, ...grounds.map((name) => theme[name] ?? "")];
+  const colors = [...LABELS, ...PALETTE, ...grounds.map((name) => theme[name] ?? "")];
   const lit = colors.flatMap((color) => LIGHTS.map((share) => luminance(linear(color).map((part) => Math.min(1, part * share)))));
 
   describe.each(Object.entries(OUTLINES))("the outline of what is %s", (_name, { inks, width, casing }) => {

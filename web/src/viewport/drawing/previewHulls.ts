@@ -20,7 +20,7 @@ export class PreviewHulls {
       return shape && made.has(row.name) ? [{ name: row.name, shape }] : [];
     });
     this.hulls = new HullSet(rows, centre, ink, 0.42);
-    const look = { color: ink.preview, hatched: false, visible: true, selected: 0, hover: 0, role: ROLE.plain };
+    const look = { color: ink.preview, fill: "solid" as const, visible: true, selected: 0, hover: 0, role: ROLE.plain };
     this.hulls.paint(() => look);
     this.outlines = dressed("made", ink);
     this.outlines.set(this.hulls.outlines(this.hulls.names));

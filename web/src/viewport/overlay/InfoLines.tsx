@@ -1,6 +1,7 @@
 // What is pointed at, and how many hulls there are and are selected.
-import { CONFIDENCE, hasLowConfidence, PALETTE } from "../../pictures/hullColors";
+import { fillOf, PALETTE } from "../../pictures/hullColors";
 import { useStage } from "../stage/context";
+import { useAlike } from "../../store/alike";
 import { useFormerLabels } from "../../store/labelChanges";
 import { useProject } from "../../store/project";
 import { type Scene, useScenes } from "../../store/scenes";
@@ -45,21 +46,23 @@ function HullLine({ hull }: { hull: HullView }) {
   const was = useFormerLabels(scene?.asset ?? "", scene?.view.hulls ?? NONE).get(hull.name);
   const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
   const unit = useUnit();
+  const alike = useAlike((state) => (state.hull === hull.name ? state.others.length : 0));
   const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
   return (
     <div className={css.pointed} data-testid="pointed">
       <b>{hull.name}</b>
-      {hull.label === null ? (
+      {hull.look === null ? (
         <span>no label</span>
       ) : (
         <span>
-          <Swatch color={color ?? "var(--hull-unlabelled)"} hatched={hasLowConfidence(hull)} /> {hull.label}
-          {hasLowConfidence(hull) ? `, unsure${share}` : share}
+          <Swatch color={color ?? "var(--hull-unlabelled)"} fill={fillOf(hull)} /> {hull.label ?? "no part"}, {hull.look}
+          {hull.look !== "given" && share}
           {was !== undefined && `, was ${was}`}
         </span>
       )}
       <span>{volumeText(hull.volume, unit)}</span>
       <span>{hull.primitive ?? `${hull.vertices} vertices`}</span>
+      {alike > 0 && <span>a click paints it and {alike} like it, Alt+click it alone</span>}
     </div>
   );
 }
@@ -94,7 +97,7 @@ const MOST = 10;
 export function Legend() {
   const colorBy = useWorkspace((workspace) => workspace.view.colorBy);
   const bodies = useScenes(({ scene }) => scene?.view.bodies);
-  if (colorBy === "confidence") return <Scale />;
+  if (colorBy === "label") return <Fills />;
   if (colorBy !== "body" || !bodies) return null;
   return (
     <ul className={css.legend} aria-label="Colours of the bodies">
@@ -108,18 +111,16 @@ export function Legend() {
   );
 }
 
-function Scale() {
-  return (
-    <div className={css.legend} aria-label="Colours of confidence">
-      <div className={css.scale} style={{ background: `linear-gradient(to right, ${CONFIDENCE.join(",")})` }} />
-      <div className={css.scaleEnds}>
-        <span>0 %</span>
-        <span>unsure · sure</span>
-        <span>100 %</span>
-      </div>
-      <span>
-        <Swatch color="var(--hull-unlabelled)" /> no label
-      </span>
-    </div>
-  );
+/** What dots and stripes mean, where there are some. */
+function Fills() {
+  const isGuessed = useScenes(({ scene }) => scene?.hulls.some(({ look }) => look === "guessed" || look === "unsure"));
+  return isGuessed ? (
+    <ul className={css.legend} aria-label="How labels are shown">
+      {(["given", "guessed", "unsure"] as const).map((look) => (
+        <li key={look}>
+          <Swatch color="var(--hull-unlabelled)" fill={fillOf({ look })} /> {look}
+        </li>
+      ))}
+    </ul>
+  ) : null;
 }

@@ -20,8 +20,8 @@ export function SelectionBar() {
   const some = useWorkspace((workspace) => workspace.selection.size > 0);
   const searching = useSimilar((state) => state.searching);
   useEffect(() => {
-    if (some && stage === "label") prepareSimilar();
-  }, [some, stage]);
+    if ((some || brush) && stage === "label") prepareSimilar();
+  }, [some, brush, stage]);
   if (stage !== "label") return null;
   return (
     <>
@@ -38,7 +38,7 @@ function Paint({ brush }: { brush: string }) {
     <div className={css.bar} role="status" data-testid="painting">
       <Swatch color={color} />
       <span>
-        Painting <b>{brush || "no label"}</b>: click hulls, or drag over them
+        Painting <b>{brush || "no label"}</b>: click a hull and what is outlined with it, or drag
       </span>
       <Button look="quiet" onClick={() => setBrush(null)} tip="Select again" keys="Esc">
         Stop

@@ -6,6 +6,7 @@ import type { Spot } from "../geometry/region";
 import { clearRegion, setRegion } from "../stage/regionStore";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
+import { hullsToPaint } from "../../store/alike";
 import { hullToCut, planeOf, setCut, shareAt, useCut } from "../../store/cut";
 import type { Triple } from "../../store/vectors";
 import { endStroke, paint } from "../../store/labels";
@@ -79,17 +80,18 @@ function measureAt(stage: Stage, x: number, y: number): void {
 }
 
 /** A click on a hull, or on nothing. */
-function handleClick(name: string | null, { shiftKey, ctrlKey, metaKey }: MouseEvent): void {
+function handleClick(name: string | null, { shiftKey, ctrlKey, metaKey, altKey }: MouseEvent): void {
   const { tool, brush } = useWorkspace.getState();
   if (tool === "landmark") return name === null ? undefined : addLandmark(name);
   if (tool === "cut") return name === null ? undefined : select([name]);
-  if (tool === "select" && brush !== null) return name === null ? undefined : paintOne(name);
+  if (tool === "select" && brush !== null) return name === null ? undefined : paintAlike(name, altKey);
   if (name !== null) selectMore([name], shiftKey ? "add" : ctrlKey || metaKey ? "toggle" : "replace");
   else if (!shiftKey && !ctrlKey && !metaKey) select([]);
 }
 
-function paintOne(name: string): void {
-  paint([name]);
+/** Paints a hull and what is outlined as its look-alikes, or it alone, by one edit. */
+function paintAlike(name: string, alone: boolean): void {
+  paint(hullsToPaint(name, alone));
   endStroke();
 }
 

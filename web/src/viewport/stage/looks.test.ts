@@ -55,10 +55,10 @@ describe("a hull", () => {
   it("is grey without a label, and has the colour of its label with one", () => {
     const vocabulary = [{ name: "leg", text: "leg", color: "#ff0000", used: 1, is_class: false }];
     useProject.setState({ project: { ...emptyProject.project, vocabulary } });
-    const hulls = scene.hulls.map((hull, k) => (k === 0 ? { ...hull, label: "leg", confidence: 0.2 } : hull));
+    const hulls = scene.hulls.map((hull, k) => (k === 0 ? { ...hull, label: "leg", confidence: 0.2, look: "unsure" as const } : hull));
     const now = looks({ ...scene, hulls });
     expect(now["a"]?.color.getHexString()).toBe("ff0000");
-    expect(now["a"]?.hatched).toBe(true);
+    expect(now["a"]?.fill).toBe("hatched");
     expect(now["b"]?.color).toEqual(readThemeColors().unlabelled);
   });
 });

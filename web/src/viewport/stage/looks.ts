@@ -6,6 +6,7 @@ import { hullsToRemove } from "../drawing/previewHulls";
 import type { ThemeColors } from "../drawing/themeColors";
 import type { Point } from "../geometry/triangles";
 import { tonesOf } from "../../pictures/hullColors";
+import { useAlike } from "../../store/alike";
 import { labelChangesOf } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
@@ -15,11 +16,12 @@ import { useRegion } from "./regionStore";
 
 /** The looks of what is shown, and of the asset as it is in its file beside it. */
 export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance; before: Appearance } {
-  const { view, selection, hover, hidden, tool } = useWorkspace.getState();
+  const { view, selection, hover, hidden, tool, brush } = useWorkspace.getState();
   const { region } = useRegion.getState();
   const names = scene.hulls.map((hull) => hull.name);
   const going = hullsToRemove(showsPreview(tool) ? usePreview.getState().preview : null, names);
-  const lit = new Set([...region, ...highlightedHulls(scene)]);
+  const relabelled = brush === null ? relabelledHulls(scene) : [];
+  const lit = new Set([...region, ...highlightedHulls(scene), ...relabelled, ...useAlike.getState().others]);
   const tone = tonesOf(scene, view.colorBy, useProject.getState().project.vocabulary);
   const shown = { tone, selection, hover, hidden, lit, going, ink, changed: changedHulls(scene) };
   return { shown, before: { ...shown, going: new Set() } };
@@ -28,21 +30,17 @@ export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance
 /** Previews are hidden while hulls are picked for something else. */
 export const showsPreview = (tool: Tool): boolean => tool !== "cut" && tool !== "landmark";
 
-/** What was changed: in its label by the last edit of all labels, or where before and after are beside each other. */
-function changedHulls(scene: Scene): ReadonlySet<string> | null {
-  const { stage, view } = useWorkspace.getState();
-  const { edit } = scene;
-  if (!edit) return stage === "label" ? relabelledHulls(scene) : null;
-  if (view.compare === "off") return null;
+/** What was changed where before and after are beside each other. */
+function changedHulls({ edit }: Scene): ReadonlySet<string> | null {
+  if (!edit || useWorkspace.getState().view.compare === "off") return null;
   const changed = new Set([...edit.made, ...edit.removed]);
   return changed.size ? changed : null;
 }
 
-/** The hulls that got another label; null where these are all, so that none stands out. */
-function relabelledHulls({ asset, hulls }: Scene): ReadonlySet<string> | null {
-  const found = labelChangesOf(asset);
-  const places = found ? [...found.new, ...found.changed] : [];
-  return places.length && places.length < hulls.length ? new Set(places.flatMap((k) => hulls[k]?.name ?? [])) : null;
+/** The hulls to which the last edit of all labels gave another one. */
+function relabelledHulls({ asset, hulls, edit }: Scene): string[] {
+  const found = useWorkspace.getState().stage === "label" && !edit ? labelChangesOf(asset) : null;
+  return (found?.changed ?? []).flatMap((k) => hulls[k]?.name ?? []);
 }
 
 /** The hulls that a rule or an extractor points out on this asset, and what was made of them. */

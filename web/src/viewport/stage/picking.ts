@@ -5,6 +5,7 @@ import { planeIn } from "../drawing/section";
 import { castRay, type Ray } from "../geometry/ray";
 import { castThrough } from "../geometry/section";
 import type { Point } from "../geometry/triangles";
+import { hullsToPaint } from "../../store/alike";
 import { useWorkspace } from "../../store/workspace";
 import type { Stage } from "./stage";
 
@@ -69,6 +70,8 @@ interface ViewportProbe {
   hullAt(x: number, y: number): string | null;
   /** Hulls that are outlined as selected. */
   selected(): string[];
+  /** Hulls that a click where the pointer is would paint. */
+  toPaint(): readonly string[];
   frames(): number;
 }
 
@@ -89,6 +92,10 @@ export function exposeProbe(stage: Stage, root: HTMLElement): () => void {
     },
     hullAt: (x, y) => hullAt(stage, x - corner().left, y - corner().top),
     selected: () => [...useWorkspace.getState().selection],
+    toPaint: () => {
+      const { hover, brush } = useWorkspace.getState();
+      return hover === null || brush === null ? [] : hullsToPaint(hover, false);
+    },
     frames: () => stage.frames,
   };
   window.meshforgeViewport = exposed;

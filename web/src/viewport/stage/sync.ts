@@ -2,6 +2,7 @@
 import type { WebGLRenderer } from "three";
 import { readThemeColors, watchTheme } from "../drawing/themeColors";
 import { api } from "../../server/api";
+import { followBrush, useAlike } from "../../store/alike";
 import { hullToCut, planeOf, useCut } from "../../store/cut";
 import { watchLabelChanges } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
@@ -55,6 +56,8 @@ function followStores(stage: Stage): () => void {
       if (now.region !== before.region) repaint();
     }),
     watchLabelChanges(repaint),
+    useAlike.subscribe(repaint),
+    followBrush(),
     useCut.subscribe(() => updateCutPlane(stage)),
     fitBesideTour(stage),
     useSection.subscribe(() => updateSection(stage)),
@@ -87,7 +90,7 @@ function fitBesideTour(stage: Stage): () => void {
   };
 }
 
-const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool", "stage"] as const;
+const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool", "stage", "brush"] as const;
 
 function paint(stage: Stage): void {
   const { shown } = stage;

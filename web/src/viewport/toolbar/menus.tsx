@@ -100,7 +100,6 @@ function nameOf(showing: Showing): string {
 const NAMES: Readonly<Record<ColorBy, string>> = {
   label: "Label",
   hull: "Hull",
-  confidence: "Confidence",
   body: "Body",
 };
 

@@ -1,4 +1,3 @@
-
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { commandFor } from "../commands/list";
 import { labelCommands } from "../commands/label";
@@ -8,64 +7,47 @@ import { emptyProject, receive, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { useToasts } from "./toasts";
-import { confirmLabels, givenLabels, goToUnsure, labelProgress, nextUnsure } from "./unsureHulls";
+import { confirmLabels, labelProgress, nextPlace, placeInWalk, queueOf, walk } from "./labelWalk";
 import { initialWorkspace, select, setLayout, useLayout, useWorkspace } from "./workspace";
 
-const card = (asset: string, labels: number[], unsure: number[]) =>
-  sampleCard({ asset, hulls: labels.length, labels, unsure });
-const cards = { a: card("a", [0, -1], []), b: card("b", [0, 1, 1], [2, 0]), c: card("c", [1], [0]) };
+const card = (asset: string, labels: number[], confidence: number[]) => sampleCard({ asset, hulls: labels.length, labels, confidence });
+const cards = { a: card("a", [0, -1], [101, -1]), b: card("b", [0, 1, 1], [80, 101, 30]), c: card("c", [1], [30]) };
 const order = ["a", "b", "c"];
+const place = (asset: string, position: number, sure: number) => ({ asset, position, sure });
 
-describe("the queue of unsure hulls", () => {
-  it("goes from hull to hull, asset to asset, and round", () => {
-    const walked = [null, { asset: "b", position: 0 }, { asset: "b", position: 2 }, { asset: "c", position: 0 }].map(
-      (from) => nextUnsure(cards, order, from),
-    );
-    expect(walked).toEqual([
-      { asset: "b", position: 0 },
-      { asset: "b", position: 2 },
-      { asset: "c", position: 0 },
-      { asset: "b", position: 0 },
-    ]);
+describe("the walk through labels that nobody gave", () => {
+  const queue = [place("a", 1, -1), place("b", 2, 30), place("c", 0, 30), place("b", 0, 80)];
+
+  it("goes from the least sure to the surest, those alike in the order of the family", () => {
+    expect(queueOf(cards, order)).toEqual(queue);
   });
 
-  it("begins on the asset in hand where nothing is selected there", () => {
-    expect(nextUnsure(cards, order, { asset: "c", position: -1 })).toEqual({ asset: "c", position: 0 });
+  it("goes on and back along that order, and round", () => {
+    const ahead = [null, ...queue].map((from) => nextPlace(queue, order, from));
+    expect(ahead).toEqual([queue[0], queue[1], queue[2], queue[3], queue[0]]);
+    const back = [null, ...queue].map((from) => nextPlace(queue, order, from, -1));
+    expect(back).toEqual([queue[3], queue[3], queue[0], queue[1], queue[2]]);
   });
 
-  it("goes back, and round the other way", () => {
-    const walked = [{ asset: "c", position: 0 }, { asset: "b", position: 2 }, { asset: "b", position: 0 }, null].map(
-      (from) => nextUnsure(cards, order, from, -1),
-    );
-    expect(walked).toEqual([
-      { asset: "b", position: 2 },
-      { asset: "b", position: 0 },
-      { asset: "c", position: 0 },
-      { asset: "c", position: 0 },
-    ]);
+  it("goes on from where it was though that hull is labelled by now", () => {
+    expect(nextPlace(queue.slice(1), order, queue[0] ?? null)).toEqual(queue[1]);
+    expect(nextPlace([], order, queue[0] ?? null)).toBeNull();
   });
 
-  it("goes back to the asset before where nothing is selected", () => {
-    expect(nextUnsure(cards, order, { asset: "c", position: -1 }, -1)).toEqual({ asset: "b", position: 2 });
-  });
-
-  it("is empty where all are sure", () => {
-    expect(nextUnsure({ a: cards.a }, ["a"], null)).toBeNull();
+  it("says which place a hull has in it", () => {
+    const own = ["x", "y", "z"].map((name) => ({ name }));
+    useProject.setState({ order });
+    expect(["x", "y", "z"].map((name) => placeInWalk(cards, "b", own, name))).toEqual([{ at: 3, of: 4 }, null, { at: 1, of: 4 }]);
   });
 });
 
-it("counts hulls with and without a label", () => {
-  expect(labelProgress(cards)).toEqual({ hulls: 6, labelled: 5, unsure: 3, assets: 2 });
+it("counts hulls with and without a label, and what was given and guessed", () => {
+  expect(labelProgress(cards)).toEqual({ hulls: 6, labelled: 5, unsure: 2, guessed: 1, given: 2, assets: 2 });
 });
 
-it("counts hulls that people and files labelled", () => {
-  const given = { a: { ...cards.a, given: 1 }, b: { ...cards.b, given: 3 }, c: cards.c };
-  expect(givenLabels(given)).toEqual({ hulls: 6, given: 4, assets: 2 });
-});
-
-const hull = (name: string, label: string | null) => ({ name, label, confidence: 0.3, source: "propagated" });
+const hull = (name: string, label: string | null) => ({ name, label, confidence: 0.3, source: "propagated", look: label && "unsure" });
 const hulls = [hull("x", "leg"), hull("y", null), hull("z", "panel")];
-const cardQueue = (asset: string, unsure: number[]) => sampleCard({ asset, hulls: 3, labels: [0, -1, 1], unsure });
+const cardQueue = (asset: string, x: number, z: number) => sampleCard({ asset, hulls: 3, labels: [0, -1, 1], confidence: [x, 101, z] });
 let sent: AnyEdit[] = [];
 
 /** Shows the asset in hand, as the page does once it was opened. */
@@ -80,7 +62,7 @@ const inHand = () => [useWorkspace.getState().asset, ...useWorkspace.getState().
 beforeEach(() => {
   sent = [];
   const vocabulary = ["leg", "panel"].map((name) => ({ name, text: name, color: "#000000", used: 1, is_class: false }));
-  const cards = { a: cardQueue("a", [0]), b: cardQueue("b", [2, 0]), c: cardQueue("c", []) };
+  const cards = { a: cardQueue("a", 20, 101), b: cardQueue("b", 30, 60), c: cardQueue("c", 101, 101) };
   useProject.setState(
     { ...emptyProject, order: ["a", "b", "c"], cards, project: { ...emptyProject.project, vocabulary } },
     true,
@@ -96,11 +78,11 @@ afterEach(() => vi.restoreAllMocks());
 
 const toasts = () => useToasts.getState().toasts.map((toast) => toast.text);
 
-describe("the queue of unsure hulls", () => {
+describe("the walk", () => {
   it("opens the asset of the next one, selects it and looks at it", async () => {
     select(["x"]);
     setLayout({ gallery: true });
-    await goToUnsure();
+    await walk();
     expect(inHand()).toEqual(["b", "x"]);
     expect(useLayout.getState().gallery).toBe(false);
     expect(useWorkspace.getState().cameraOrder).toEqual({ count: 1, to: "near" });
@@ -108,12 +90,10 @@ describe("the queue of unsure hulls", () => {
 
   it("goes back with Shift+N", async () => {
     select(["x"]);
-    await press("Shift+N");
-    expect(inHand()).toEqual(["b", "z"]);
-    await press("Shift+N");
-    expect(inHand()).toEqual(["b", "x"]);
-    await press("Shift+N");
-    expect(inHand()).toEqual(["a", "x"]);
+    for (const hull of [["b", "z"], ["b", "x"], ["a", "x"]]) {
+      await press("Shift+N");
+      expect(inHand()).toEqual(hull);
+    }
   });
 
   it("vouches for a label as it is, then goes on", async () => {
@@ -147,18 +127,12 @@ describe("the queue of unsure hulls", () => {
     expect(inHand()).toEqual(["a", "x"]);
   });
 
-  it("passes over what was labelled though the cards do not tell it yet, and says when all are sure", async () => {
-    for (const key of ["N", "1", "Enter", "2"]) await press(key);
-    expect(sent.map((edit) => edit.kind === "label" && edit.hulls)).toEqual([{ a: ["x"] }, { b: ["x"] }, { b: ["z"] }]);
-    expect(inHand()).toEqual(["b", "z"]);
-    expect(toasts()).toEqual(["No unsure label is left."]);
-  });
-
-  it("takes up again what is unsure once more, as after undo", async () => {
-    for (const key of ["N", "1"]) await press(key);
-    receive({ kind: "cards", cards: [cardQueue("a", [0])], gone: [] });
-    await press("Shift+N");
-    expect(inHand()).toEqual(["a", "x"]);
+  it("says when all are given", async () => {
+    await press("N");
+    await press("1");
+    receive({ kind: "cards", cards: [cardQueue("a", 101, 101), cardQueue("b", 101, 101)], gone: [] });
+    await press("N");
+    expect(toasts()).toEqual(["Every label was given by you, a file or a name."]);
   });
 
   it("stays where the label could not be given", async () => {

@@ -1,0 +1,28 @@
+// Where labels could come from besides the hulls that have one: files beside the assets, names, and a model.
+import { useEffect } from "react";
+import { create } from "zustand";
+import { api } from "../server/api";
+import type { LabelSources } from "../wire";
+import { countReadable, useProject } from "./project";
+import { reportError } from "./toasts";
+
+export const useLabelSources = create<LabelSources>()(() => ({ files: 0, names: 0, model: null }));
+
+/** Asks how much there is, anew when labels or assets change, and as more assets are read. */
+export function useFreshSources(): LabelSources {
+  const vocabulary = useProject((state) => state.project.vocabulary);
+  const assets = useProject((state) => state.order.length);
+  const read = useProject((state) => countReadable(state.cards));
+  const relabelled = useProject((state) => state.relabelled);
+  useEffect(() => {
+    let is = true;
+    const timer = setTimeout(() => {
+      api.labelSources().then((found) => is && useLabelSources.setState(found, true), reportError);
+    }, 250);
+    return () => {
+      is = false;
+      clearTimeout(timer);
+    };
+  }, [vocabulary, assets, read, relabelled]);
+  return useLabelSources();
+}
