@@ -104,18 +104,23 @@ def label_project(
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
     proposal = labeler.propose(LabelFamily(store, words, execution, stage))
     run = _LabelRun(store, labeler, None if not dry_run else words or proposal.vocabulary)
+
+    def write(found: Iterable[AssetLabels]) -> None:
+        if not words:
+            store.set_vocabulary(proposal.vocabulary)
+        run.take(found, report)
+        keep_label_source(store, run.outcomes.values(), labeler)
+
     with closing(proposal.assets) as assets:
         found = _count(assets, len(store.assets()), labeler.work, stage)
-        if write_block and not dry_run:
+        if dry_run:
+            run.take(found, report)
+        elif write_block:
             known = list(found)
             with write_block(proposal.next):
-                run.take(_count(known, len(known), "writing labels", stage), report)
+                write(_count(known, len(known), "writing labels", stage))
         else:
-            if not (words or dry_run):
-                store.set_vocabulary(proposal.vocabulary)
-            run.take(found, report)
-    if not dry_run:
-        keep_label_source(store, run.outcomes.values(), labeler)
+            write(found)
     return replace(run.result(), next=proposal.next, alike=proposal.alike, notes=proposal.notes)
 
 

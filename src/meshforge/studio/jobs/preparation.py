@@ -1,7 +1,7 @@
 """Jobs before the program runs: decomposing, labelling, and asking a model (and what that would cost)."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Literal
 from uuid import uuid4
 
@@ -9,10 +9,7 @@ from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, format_share, join_names, pluralize, relative_name
 from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import (
-    AllLabeler,
-    LabelFamily,
     LabelOutcome,
-    LabelProposal,
     LabelResult,
     Tally,
     VlmForecast,
@@ -131,25 +128,21 @@ def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
 
 def start_label(session: Session) -> Job:
     """Start to label all hulls from files, names, and the labels that there are, weighed together."""
-    project, labeler = session.project, _StudioLabeler()
+    project = session.project
     began, used = _preparation_digests(project), session.count_edits()
     files = [file.path(project.folder) for file in (Layout.settings, Layout.labels, Layout.label_sources)]
 
+    @contextmanager
+    def record(best: str | None) -> Iterator[None]:
+        edit = {"kind": "label-all", "used": used, "next": best}
+        with session.record("hulls labelled", edit, files, uuid4().hex):
+            if _preparation_digests(session.project) != began:
+                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Label again.")
+            yield
+
     def work(progress: JobProgress) -> str:
-        with ExitStack() as block:
-
-            @contextmanager
-            def record(best: str | None) -> Iterator[None]:
-                edit = {"kind": "label-all", "used": used, "next": best}
-                block.enter_context(session.record("hulls labelled", edit, files, uuid4().hex))
-                if _preparation_digests(session.project) != began:
-                    raise ConflictError("assets or their hulls were changed meanwhile", remedy="Label again.")
-                if not project.vocabulary:
-                    project.set_vocabulary(labeler.words)
-                yield
-
-            options = ExecutionOptions(stop=progress.is_stopped)
-            result = project.label(labeler, execution=options, stage=progress.stage, write_block=record)
+        options = ExecutionOptions(stop=progress.is_stopped)
+        result = project.label(execution=options, stage=progress.stage, write_block=record)
         for outcome in result.outcomes:
             progress.add_line(_labels_line(outcome, [f"{outcome.unsure} unsure"] if outcome.unsure else []))
         if not any(outcome.taken for outcome in result.outcomes):
@@ -158,17 +151,6 @@ def start_label(session: Session) -> Job:
         return " ".join(_describe_labels(result, project.tally_labels()))
 
     return session.jobs.start("label", "Labelling", len(project.assets()), work, stays="no label was changed.")
-
-
-class _StudioLabeler(AllLabeler):
-    """Keeps the vocabulary that files gave, so that it is set in the same step of the history as the labels."""
-
-    words: tuple[str, ...] = ()
-
-    def propose(self, family: LabelFamily) -> LabelProposal:
-        proposal = super().propose(family)
-        self.words = proposal.vocabulary
-        return proposal
 
 
 def _preparation_digests(project: Project) -> dict[str, str | None]:
@@ -217,7 +199,8 @@ def start_ask(session: Session, request: AskJob) -> Job:
     title, edit = f"labels from {settings.model}", {"kind": "label-vlm", "model": settings.model}
 
     def record(best: str | None) -> AbstractContextManager[object]:
-        return session.record(title, edit, [Layout.labels.path(project.folder)], uuid4().hex)
+        files = [file.path(project.folder) for file in (Layout.labels, Layout.label_sources)]
+        return session.record(title, edit, files, uuid4().hex)
 
     def work(progress: JobProgress) -> str:
         labeler, execution = VlmLabeler(settings), ExecutionOptions(0, stop=progress.is_stopped)
