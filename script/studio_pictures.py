@@ -21,7 +21,6 @@ from meshforge.synthesis import Step
 from script.pictures import BY_HAND
 
 SIZE = (1440, 900)
-GUESSED = "Keep as step 2"
 
 
 def main(folder: Path) -> None:
@@ -56,8 +55,10 @@ def _show_first_steps(project: Project) -> None:
 
 
 def _prepare_project(folder: Path) -> Project:
-    """The tables, of which one is labelled by hand."""
-    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=family_of("tables").vocabulary)
+    """The tables without the labels beside them, of which one is labelled by hand."""
+    (folder / "assets").mkdir(parents=True)
+    assets = [shutil.copy2(asset, folder / "assets") for asset in sorted(TABLES.glob("*.obj"))]
+    project = Project.create(folder / "project", assets, vocabulary=family_of("tables").vocabulary)
     true = read_labels(TABLES / f"{BY_HAND[0]}.labels.json").labels
     project.set_labels(f"{BY_HAND[0]}.obj", {hull: label.name for hull, label in true.items()})
     return project
