@@ -109,6 +109,12 @@ def chunk(kind: bytes, content: bytes) -> bytes:
     return struct.pack("<I4s", len(content), kind) + content
 
 
+def buffer_of(glb: Path) -> bytes:
+    """The bytes of the buffer of a GLB, and what lies behind."""
+    data = glb.read_bytes()
+    return data[28 + int.from_bytes(data[12:16], "little") :]
+
+
 def glb_of(tree: Tree, data: bytes, *more: bytes) -> bytes:
     """A GLB of a JSON and a buffer, and further chunks behind."""
     text = json.dumps(tree).encode()

@@ -17,7 +17,7 @@ from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, read_labels, transfer_labels
 from tests.engine_rules import godot_word, unreal_target
-from tests.gltf_files import KHR, tree_of
+from tests.gltf_files import KHR, buffer_of, tree_of
 from tests.gltf_validation import errors
 from tests.loop.command import meshforge_here as meshforge
 
@@ -75,16 +75,10 @@ def assert_seen_alike(source: Path, out: Path) -> None:
     for key in SEEN:
         assert now.get(key, [])[: len(then.get(key, []))] == then.get(key, []), key
     if source.suffix == ".glb":
-        assert chunk(out).startswith(chunk(source))
+        assert buffer_of(out).startswith(buffer_of(source))
     for buffer in then["buffers"]:
         if "uri" in buffer:
             assert (out.parent / buffer["uri"]).read_bytes() == (source.parent / buffer["uri"]).read_bytes()
-
-
-def chunk(path: Path) -> bytes:
-    """The bytes of the buffer of a GLB."""
-    data = path.read_bytes()
-    return data[28 + int.from_bytes(data[12:16], "little") :]
 
 
 def colliders(path: Path) -> dict[str, dict[str, Any]]:

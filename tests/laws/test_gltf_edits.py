@@ -16,7 +16,7 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, is_same_shape
 from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
-from tests.gltf_files import KHR, SceneFile, Tree, tree_of
+from tests.gltf_files import KHR, SceneFile, Tree, buffer_of, tree_of
 from tests.soups import angle, box, together
 
 NAMES: dict[str, list[str | None]] = {
@@ -112,7 +112,7 @@ def test_hulls_beside_an_unmarked_scene_read_back_and_the_scene_is_as_it_was(
         for key in ("bufferViews", "accessors", "materials", "meshes", "nodes"):
             assert now[key][: len(then[key])] == then[key]
         if suffix == ".glb":
-            assert _chunk(saved.path).startswith(_chunk(source))
+            assert buffer_of(saved.path).startswith(buffer_of(source))
         again = save(after, Path(folder) / "again" / source.name, collision="beside")
         assert again.path.read_bytes() == saved.path.read_bytes()
 
@@ -141,12 +141,7 @@ def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix:
         assert _seen(after) == _seen(before)  # collision goes, what is seen stays
         _assert_rest_is_same(before, wanted, tree_of(source.read_bytes()), tree_of(saved.path.read_bytes()))
         if suffix == ".glb":
-            assert _chunk(saved.path).startswith(_chunk(source))
-
-
-def _chunk(path: Path) -> bytes:
-    data = path.read_bytes()
-    return data[28 + int.from_bytes(data[12:16], "little") :]
+            assert buffer_of(saved.path).startswith(buffer_of(source))
 
 
 def _seen(asset: Asset) -> list[tuple[str, int, list[list[float]]]]:

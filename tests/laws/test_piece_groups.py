@@ -98,12 +98,6 @@ def test_two_legs_in_one_shape_are_two_pieces_and_the_gap_is_free() -> None:
     assert [one.volume for one in found] == pytest.approx([leg.volume for leg in legs])
 
 
-def test_where_triangles_enclose_nothing_shapes_stay_as_they_are() -> None:
-    shape = box((0, 0, 0), (0.1, 0.1, 0.1))
-    flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
-    assert Interior(flat, np.array([[0, 1, 2]])).list_hulls([shape]) == [shape]
-
-
 def _stack(solids: list[Polytope]) -> tuple[Floats, Ints]:
     starts = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
     faces = [solid.faces + start for solid, start in zip(solids, starts, strict=False)]

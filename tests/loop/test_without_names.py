@@ -18,17 +18,11 @@ from meshforge.signoff import THRESHOLD
 from meshforge.symbolic import name_class
 from tests.corpus_path import corpus
 from tests.e2e.chair_family import write_chairs
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 Meant = Mapping[str, tuple[frozenset[str], ...]]
 """What each rule is to take, by asset."""
 MOST_REPLIES = 60
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def reply_to(question: dict[str, Any], meant: Meant, project: Project) -> dict[str, Any]:

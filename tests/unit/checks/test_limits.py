@@ -9,12 +9,9 @@ from meshforge.checks import check
 from meshforge.common import UsageError
 from meshforge.engines import ENGINES
 from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull, polygon_sizes
-from meshforge.symbolic import Asset, Body, Document, Geom, Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 from tests.soups import ball
-
-
-def mesh(*shapes: Shape) -> SymbolicMesh:
-    return SymbolicMesh(tuple(Hull(f"h{k}", "body", shape) for k, shape in enumerate(shapes)))
+from tests.unit.checks.test_legality import mesh
 
 
 def prism(sides: int) -> Polytope:

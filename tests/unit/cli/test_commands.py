@@ -194,6 +194,7 @@ def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
         (("-o", "h.obj", "--by", "labels", "--labels", "gone.npz"), "gone.npz: cannot be read"),
         (("-o", "h.obj", "--by", "labels", "--labels", "row.obj"), ".obj is no kind of segmented points"),
         (("--advise", "-o", "h.obj"), "writes a picture, no hulls"),
+        (("-o", "h.obj", "--set", "treshold=0.1"), "threshold=0.05"),
     ],
 )
 def test_options_of_decompose_that_do_not_fit_are_refused(run: Run, words: tuple[str, ...], problem: str) -> None:
@@ -218,12 +219,6 @@ def test_hulls_by_labels_of_points_are_called_by_their_classes(run: Run) -> None
     assert {hull["name"][:4] for hull in run("info", "hulls.obj", "--json").json["hulls"]} <= {"left", "righ"}
     told = run("decompose", "bar.obj", "--advise", "--labels", "said.npz", "--align", "box", *QUICK_VOXELS)
     assert told.code == 0 and "span parts: " in told.out
-
-
-def test_decompose_lists_the_options_when_one_is_unknown(run: Run) -> None:
-    told = run("decompose", "row.obj", "-o", "hulls.obj", "--set", "treshold=0.1")
-    assert told.code == 2
-    assert "threshold=0.05" in told.err
 
 
 def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
@@ -383,6 +378,8 @@ def test_apply_refuses_options_that_make_no_sense(run: Run, more: tuple[str, ...
         (("apply", "row.mf", "row.obj"), "row.mf: there is no such project or program"),
         (("status", "."), "this is no project"),
         (("new", "p", "*.stl"), "*.stl"),
+        (("new", "p", "row.obj", "--hollow"), "--hollow says nothing without --decompose METHOD"),
+        (("new", "p", "row.obj", "--workers", "1"), "--workers says nothing without --decompose METHOD"),
         (("check", "row.obj", "--engine", "quake"), "quake"),
     ],
 )
@@ -391,6 +388,7 @@ def test_wrong_usage_is_one_message_and_exit_code_two(run: Run, words: tuple[str
     assert told.code == 2
     assert told.err.startswith("error: ") or "Usage" in told.err
     assert problem in told.err
+    assert not Path("p").exists()
 
 
 @pytest.mark.slow

@@ -8,20 +8,18 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
-from tests.unit.batch.families import label_of, table_boxes, write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.batch.families import label_of, table_boxes
+from tests.unit.cli.in_process import Run
+from tests.unit.labels.test_label_by_propagation import family
 
-NAMES = tuple(table_boxes())
+RIGHT = {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in table_boxes()}
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of three tables without labels."""
-    monkeypatch.chdir(tmp_path)
-    for k in range(3):
-        write_table(tmp_path / f"assets/t{k}.obj", height=0.8 + 0.3 * k, labels=False)
-    Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=("top", "leg", "crumb"))
-    return runner(monkeypatch, capsys)
+    family(tmp_path, 3, "top", "leg", "crumb")
+    return run
 
 
 @pytest.mark.slow
@@ -32,7 +30,7 @@ def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_loo
     asset = first.err.split("best ")[1].split()[0].rstrip(".")
     project = Project.open(tmp_path / "p")
     assert asset in project.assets()
-    project.set_labels(asset, {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
+    project.set_labels(asset, RIGHT)
     told = run("label", "p", "--with", "propagate")
     assert told.code == 0
     assert f"{asset}: 0 labels taken, 6 there already\n" in told.out
@@ -42,15 +40,13 @@ def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_loo
 
 @pytest.mark.slow
 def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> None:
-    Project.open(tmp_path / "p").set_labels(
-        "t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES}
-    )
+    Project.open(tmp_path / "p").set_labels("t0.obj", RIGHT)
     told = run("label", "p", "--with", "propagate", "--json").out.splitlines()
     assert len(told) == 5
     assert all('"unsure": ' in line for line in told[:4])
     closing, last = map(json.loads, told[3:])
     assert last["next"] in ("t1.obj", "t2.obj")
-    assert closing["labels"]["hulls"] == 3 * len(NAMES)
+    assert closing["labels"]["hulls"] == 3 * len(RIGHT)
     assert {share["source"] for share in closing["labels"]["shares"]} == {"user", "propagated"}
 
 
@@ -70,7 +66,7 @@ def test_the_summary_counts_by_source_and_confidence(run: Run, tmp_path: Path) -
 @pytest.mark.slow
 def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> None:
     project = Project.open(tmp_path / "p")
-    project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
+    project.set_labels("t0.obj", RIGHT)
     shown = run("label", "p", "--with", "propagate", "--dry-run")
     assert shown.code == 0
     assert shown.out.endswith(
@@ -88,7 +84,7 @@ def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> N
 @pytest.mark.parametrize("source", ["file", "names", "propagate"])
 def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path: Path, source: str) -> None:
     project = Project.open(tmp_path / "p")
-    project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
+    project.set_labels("t0.obj", RIGHT)
     (tmp_path / "assets/t1.obj").write_text("nothing of use")
     for name in ("t1", "t2"):
         (tmp_path / f"assets/{name}.labels.json").write_text('{"hulls": {"top": "top"}}')

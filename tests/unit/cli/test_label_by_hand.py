@@ -13,20 +13,19 @@ from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.edits.base import make_edit
 from meshforge.symbolic import Label
 from tests.unit.batch.families import table_boxes, tree, write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 LEGS = tuple(name for name in table_boxes() if name not in ("top", "crumb"))
 FIRST = "a/t0.obj"
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of three tables without labels, two of them in one folder."""
-    monkeypatch.chdir(tmp_path)
     for k, name in enumerate((FIRST, "a/t1.obj", "b/t1.obj")):
         write_table(tmp_path / "assets" / name, height=0.8 + 0.3 * k, labels=False)
     Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=("top", "leg", "crumb"))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def labels_of(asset: str = FIRST) -> dict[str, Label]:

@@ -11,16 +11,15 @@ import pytest
 from meshforge.project import Project
 from tests.unit.batch.families import label_of, table_boxes, write_tables
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ODD = "<i>&.obj"
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of three tables: one labelled in a file, one with a label for a hull
     that is not there, one with nothing beside it; and of a damaged file."""
-    monkeypatch.chdir(tmp_path)
     write_tables(tmp_path / "tables", 3)
     for beside in tmp_path.glob("tables/*/*.labels.json"):
         beside.unlink()
@@ -28,7 +27,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     Project.create(tmp_path / "p", [tmp_path / "tables"], vocabulary=("top", "leg", "misc"))
     for k, said in enumerate(({name: label_of(name) for name in table_boxes()}, {"nope": "leg"})):
         (tmp_path / f"tables/table{k}/model.labels.json").write_text(json.dumps({"hulls": said}))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def cards(page: Any) -> dict[str, list[str]]:

@@ -10,20 +10,19 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.batch.families import tree
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.labels.partnet import write_partnet
 
 VOCABULARY = ("drawer", "door", "handle", "frame")
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of two cabinets as PartNet has them."""
-    monkeypatch.chdir(tmp_path)
     for name in ("7119", "7120"):
         write_partnet(tmp_path / "assets" / name)
     Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=VOCABULARY)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def told(text: str) -> str:

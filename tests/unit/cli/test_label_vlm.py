@@ -17,7 +17,7 @@ import pytest
 from meshforge.project import Project
 from tests.loopback import KEY, Asked, Server, labels_as_json, serving
 from tests.unit.batch.pages import opened, texts
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.labels.vlm_family import VARIABLE, family, right, truth
 
 _RUN = "from meshforge.cli import main; main()"
@@ -44,11 +44,6 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
                 "every_hull = true\nsize = 256\ninput_price = 1\noutput_price = 4\n"
             )
         yield made
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
 
 
 @pytest.mark.slow

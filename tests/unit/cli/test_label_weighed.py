@@ -10,18 +10,17 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.batch.families import tree
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.cli.test_label_sources import told
 from tests.unit.labels.test_label_by_propagation import family
 from tests.unit.labels.test_weighed_labels import RIGHT, guessed
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of six tables that a model labelled, not all of them rightly."""
-    monkeypatch.chdir(tmp_path)
     guessed(tmp_path)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 SURE = re.compile(r"0\.\d\d$", re.MULTILINE)

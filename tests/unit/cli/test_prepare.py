@@ -171,13 +171,6 @@ def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: R
     assert "Take away by hand what stands there" in run("status", project).out
 
 
-@pytest.mark.parametrize(("option", "words"), [("--hollow", ()), ("--workers", ("1",))])
-def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str, words: tuple[str, ...]) -> None:
-    told = run("new", "p", "in/row.obj", option, *words)
-    assert told.code == 2 and f"{option} says nothing without --decompose METHOD" in told.err
-    assert not Path("p").exists()
-
-
 @pytest.mark.parametrize(
     ("words", "problem"),
     [

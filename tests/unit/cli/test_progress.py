@@ -19,7 +19,7 @@ from meshforge.cli import console
 from meshforge.cli.console import Progress, progress
 from meshforge.project.prepare import count_pieces
 from tests.unit.batch.preparation.samples import write_stand
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 from tests.urdf_sample import boxes_obj
 
 Capture = pytest.CaptureFixture[str]
@@ -169,7 +169,7 @@ def test_a_stop_leaves_no_warning_of_semaphores(tmp_path: Path, number: signal.S
 
 @pytest.mark.parametrize("words", [("info", "a.obj", "--json"), ("convert", "a.obj", "b.stl", "--json")])
 def test_reading_one_asset_says_how_long_it_takes_and_json_stays_json(
-    words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    words: tuple[str, ...], run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = formats.load
 
@@ -178,7 +178,6 @@ def test_reading_one_asset_says_how_long_it_takes_and_json_stays_json(
         return own(*given, **more)
 
     monkeypatch.setattr(formats, "load", slowly)
-    monkeypatch.chdir(tmp_path)
     Path("a.obj").write_text(boxes_obj(((0, 0, 0), (1, 1, 1))))
-    told = runner(monkeypatch, capsys)(*words)
+    told = run(*words)
     assert told.code == 0 and told.err.startswith("reading a.obj: 0 s\n") and told.json

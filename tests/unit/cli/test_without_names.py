@@ -7,20 +7,18 @@ from pathlib import Path
 import pytest
 
 from tests.unit.batch.families import write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 SHOW = "meshforge demonstrate p ASSET 'HULLS => ACTION' ..."
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of three tables without labels."""
-    monkeypatch.chdir(tmp_path)
     for k in range(3):
         write_table(tmp_path / f"assets/t{k}.obj", height=0.8 + 0.3 * k, labels=False)
-    made = runner(monkeypatch, capsys)
-    assert made("new", "p", "assets/*.obj").code == 0
-    return made
+    assert run("new", "p", "assets/*.obj").code == 0
+    return run
 
 
 @pytest.fixture

@@ -42,18 +42,6 @@ def test_nothing_is_an_array_of_no_rows() -> None:
     assert freeze_ints([], (-1, 3)).shape == (0, 3)
 
 
-def test_a_pose_takes_lists() -> None:
-    pose = Pose([[0, -1, 0], [1, 0, 0], [0, 0, 1]], [1, 2, 3])
-    assert np.array_equal(pose.apply(np.array([[1.0, 0, 0]])), [[1, 3, 3]])
-
-
-def test_a_pose_and_its_inverse_are_none() -> None:
-    pose = Pose.from_rpy([1, 2, 3], [0.1, -0.7, 2.5])
-    both = pose @ pose.inverse()
-    assert np.allclose(both.rotation, np.eye(3))
-    assert np.allclose(both.translation, 0)
-
-
 @pytest.mark.parametrize("rpy", [(0.3, -1.2, 2.9), (0, 0, 0), (1, np.pi / 2, 0), (1, -np.pi / 2, 0), (3, 1.5707, -3)])
 def test_roll_pitch_and_yaw_come_back(rpy: tuple[float, float, float]) -> None:
     pose = Pose.from_rpy([0, 0, 0], rpy)

@@ -80,12 +80,6 @@ def test_flat_points_are_thickened_about_their_middle(points: Floats, size: tupl
     assert np.allclose(hull.aabb.center, points.mean(axis=0), atol=1e-9)
 
 
-def test_a_slanted_sheet_is_thickened_across_itself() -> None:
-    turn = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
-    hull = convex_hull(SQUARE @ turn.T, thicken=0.01)
-    assert hull.volume == pytest.approx(0.01)
-
-
 @pytest.mark.parametrize("seed", range(40))
 def test_the_hull_of_a_hull_is_that_hull_in_single_precision_too(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -62,12 +62,6 @@ def test_a_box_without_extent_cannot_be_filled(fill: object) -> None:
         fill(Aabb([0, 0, 0], [1, 0, 1]))
 
 
-def test_a_template_is_mapped_axis_by_axis() -> None:
-    (shape,) = map_to_box([CUBE], CUBE.aabb, Aabb([1, 1, 1], [2, 3, 4]))
-    assert shape.kind == "box"
-    assert (shape.aabb.min.tolist(), shape.aabb.max.tolist()) == ([1, 1, 1], [2, 3, 4])
-
-
 def test_a_side_of_the_source_without_extent_is_moved_only() -> None:
     (shape,) = map_to_box([CUBE], Aabb([0, 0, 0.5], [1, 1, 0.5]), Aabb([0, 0, 3], [2, 2, 5]))
     assert np.allclose(shape.aabb.size, [2, 2, 1])

@@ -27,13 +27,6 @@ def test_of_a_shape_it_measures_what_is_enclosed() -> None:
     assert inside.measure(shape(block((0.5, 0.5, 0.2), (0, 0, 0)))) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_each_connected_piece_of_what_a_shape_has_gets_a_hull() -> None:
-    across = shape(block((2.0, 0.1, 0.1), (0, 0, 0)))
-    left, right = sorted(Interior(*surface(RING)).list_hulls([across]), key=lambda hull: float(hull.aabb.min[0]))
-    assert (left.aabb.min[0], left.aabb.max[0]) == pytest.approx((-0.5, -0.3))
-    assert (right.aabb.min[0], right.aabb.max[0]) == pytest.approx((0.3, 0.5))
-
-
 def test_a_shape_that_is_filled_stays_as_it_is() -> None:
     small = shape(block((0.1, 0.1, 0.1), (0.4, 0, 0)))
     assert Interior(*surface(RING)).list_hulls([small]) == [small]

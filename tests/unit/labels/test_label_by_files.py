@@ -301,8 +301,3 @@ def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Pa
     assert offers.of(project).files == (ASSET,)
     project.label("file")
     assert offers.of(project).files == ()
-
-
-def test_status_advises_to_take_them(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    assert project.status(workers=0).next.command == f"meshforge label {project.folder}"

@@ -18,7 +18,7 @@ from meshforge.project import Project, learn
 from meshforge.samples import TABLES
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, obj, table_boxes, write_table
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 
 NAMES = tuple(table_boxes())
 TRUE = {name: label_of(name) for name in NAMES}
@@ -235,14 +235,10 @@ def test_hulls_that_are_all_alike_get_a_label(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_another_kind_is_refused_with_the_nearest_ones(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_another_kind_is_refused_with_the_nearest_ones(run: Run, tmp_path: Path) -> None:
     for name in ("table_01", "table_02"):
         (tmp_path / f"{name}.obj").write_bytes((TABLES / f"{name}.obj").read_bytes())
     Project.create(tmp_path / "p", [tmp_path / "*.obj"])
-    monkeypatch.chdir(tmp_path)
-    run = runner(monkeypatch, capsys)
     done = run("label", "p", "--like", "sample:bottles", "--json")
     assert done.code == 2
     assert "most hulls are farther from those of bottles than these are from each other" in done.err

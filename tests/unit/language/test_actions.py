@@ -46,27 +46,6 @@ def test_of_equally_large_hulls_the_first_counts() -> None:
     assert applied(scene, Merge()).made == ("b~1",)
 
 
-def test_merge_without_each_makes_one_hull_a_body() -> None:
-    scene = mesh(
-        hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
-        hull("b", box([3, 0, 0], [4, 1, 1]), body="base"),
-        hull("c", box([0, 0, 1], [1, 1, 2]), body="door"),
-        hull("d", box([3, 0, 1], [4, 1, 2]), body="door"),
-    )
-    result = applied(scene, Merge())
-    assert result.made == ("a~1", "c~1")
-    assert [h.body for h in result.mesh.hulls] == ["base", "door"]
-
-
-def test_each_never_joins_hulls_of_two_bodies() -> None:
-    scene = mesh(
-        hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
-        hull("b", box([1, 0, 0], [2, 1, 1]), body="door"),
-        hull("c", box([2, 0, 0], [3, 1, 1]), body="base"),
-    )
-    assert applied(scene, Each(Merge())).mesh is scene
-
-
 def test_merging_one_hull_under_a_label_relabels_it() -> None:
     scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
     after = applied(scene, Merge(), label="handle").mesh.hull_of("ball")

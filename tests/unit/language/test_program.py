@@ -25,7 +25,6 @@ from meshforge.language import (
     Rule,
     Union,
     parse_extractor,
-    size_of,
 )
 
 GEO = Geo(Is("leg"), "+X")
@@ -65,11 +64,6 @@ def test_a_program_without_declared_labels_declares_those_it_uses() -> None:
 def test_a_program_names_its_templates_once_each_in_order() -> None:
     text = 'All => Add(+X, "b.obj")\nAll => Each(Replace("a.obj"))\nAll => Replace("b.obj")\nAll => Replace(box)'
     assert Program.parse(text).templates == ("b.obj", "a.obj")
-
-
-def test_sizes_are_those_of_the_paper() -> None:
-    sizes = {"All": 1, "Is(a)": 1, "Geo(Is(a), +X)": 2, "Attach(Is(a), All)": 3, "Diff(Is(a), Geo(All, -Z))": 4}
-    assert {text: size_of(parse_extractor(text)) for text in sizes} == sizes
 
 
 @pytest.mark.parametrize(

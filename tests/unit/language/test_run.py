@@ -64,13 +64,6 @@ def test_a_program_that_changes_nothing_gives_back_the_very_mesh() -> None:
     assert program.run(scene).mesh is scene
 
 
-def test_hulls_of_an_edited_mesh_are_kept_in_a_second_run() -> None:
-    first = Program.parse(TABLES).run(table()).mesh
-    second = Program.parse("Is(panel) => Scale(all, 2)").run(first).mesh
-    assert second.hull_of("leg0_high~1") is first.hull_of("leg0_high~1")
-    assert second.hull_of("top~2").parent == "top"
-
-
 def test_contact_is_measured_by_the_mesh_before_the_first_rule() -> None:
     """Deleting a far splinter does not cut apart what was joined."""
     scene = mesh(
@@ -102,11 +95,6 @@ def test_edges_are_those_of_the_mesh_as_it_stands() -> None:
         Program.parse("Attach(Is(x), Is(bridge)) => Each(Scale(X, 0.5))\nAttach(Is(x), All) => Delete").run(scene).trace
     )
     assert trace[0].selected == ("a", "c") and trace[1].selected == ()
-
-
-def test_geo_sees_the_oriented_frame() -> None:
-    program = Program.parse("extremity 0.01\norient +Z: Is(leg) -> Is(panel)\nGeo(All, +Z) => Delete")
-    assert program.run(lying()).trace[0].selected == ("top",)
 
 
 def test_an_asset_without_labels_fails_under_a_program_that_asks_for_them() -> None:

@@ -11,7 +11,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from tests.unit.batch.families import tree
-from tests.unit.cli.in_process import runner
+from tests.unit.cli.in_process import Run
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.replying import CASES, MAKERS, STRICT, find_question, look, reply_by_method
 
@@ -38,11 +38,8 @@ def outcome(project: Project) -> object:
         *(pytest.param(name, marks=pytest.mark.long) for name in ("wrong, other hulls", "not solved", "a slip")),
     ],
 )
-def test_a_reply_whose_command_was_killed_is_taken_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    case, run = CASES[name], runner(monkeypatch, capsys)
+def test_a_reply_whose_command_was_killed_is_taken_again(run: Run, tmp_path: Path, name: str) -> None:
+    case = CASES[name]
     project = MAKERS[case.family](tmp_path)
     question = find_question(look(project), case.kind, case.asset)
     Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))

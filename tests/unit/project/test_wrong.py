@@ -13,7 +13,7 @@ from meshforge.signoff import THRESHOLD
 from meshforge.signoff.reasons import CALLED_WRONG_BEFORE, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.racks import BLOCK, LEGS, shown_racks
 from tests.unit.project.replying import (
     ALSO,
@@ -140,11 +140,6 @@ def test_a_program_by_hand_that_contradicts_a_demonstration_is_the_first_reason_
     assert probabilities(found)[OTHER] < before[OTHER]
     accepted = say(project, "right", SHOWN)
     assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.need_review
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Aabb, Box, Pose, Sphere
-from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Label, SymbolicMesh, bits_of, mask_of
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Label, SymbolicMesh, split_by_contact
 
 
 def box(x: float, size: float = 1.0) -> Box:
@@ -21,6 +21,10 @@ def row(*places: float, epsilon: float = 0.002, scale: float | None = None) -> S
 def test_boxes_that_share_a_face_are_in_contact() -> None:
     assert row(0, 1, 3).contacts == {(0, 1)}
     assert row(0, 1, 3).neighbours(1) == {0}
+
+
+def test_a_chain_through_a_hull_outside_the_selection_connects_nothing() -> None:
+    assert split_by_contact(row(0, 1, 2), 0b101) == [0b001, 0b100]
 
 
 def test_hulls_at_exactly_the_threshold_are_in_contact() -> None:
@@ -99,8 +103,3 @@ def test_a_mesh_becomes_its_asset_again_with_its_hulls_as_geoms() -> None:
 def test_a_mesh_made_in_memory_has_no_asset_to_become() -> None:
     with pytest.raises(MeshForgeError, match="made in memory"):
         row(0).to_asset()
-
-
-def test_bit_sets_and_indices_are_inverse() -> None:
-    assert bits_of(mask_of([0, 3, 70])) == {0, 3, 70}
-    assert (bits_of(0), mask_of([])) == (frozenset(), 0)

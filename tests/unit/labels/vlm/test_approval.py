@@ -13,18 +13,13 @@ from meshforge.labels.vlm import label_by_vlm
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 from tests.loopback import KEY
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.cli.terminal import Terminal
 from tests.unit.labels.vlm.asking import endpoint
 from tests.unit.labels.vlm_family import VARIABLE, family
 
 EVIL = "https://evil.example/v1"
 APPROVALS = "config/meshforge/approved_hosts"
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
 
 
 @pytest.fixture(autouse=True)
