@@ -24,7 +24,7 @@ CHOICES = (
     "Diff(Geo(Is(handle), -Z), Attach(Is(handle), Is(panel)))",
 )
 """Three readings of a rule of docs/learning.md, on the table that it is asked about."""
-BY_HAND = ("table_10", "table_08")
+BY_HAND = ("table_02", "table_09")
 """The tables that somebody labels who follows the advice."""
 
 
