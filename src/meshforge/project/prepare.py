@@ -192,7 +192,8 @@ def _list_hulls(source: Asset, before: batch.Preparation) -> dict[str, Shape]:
     """
     made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
     there = made | {geom.name: geom.shape for geom in batch.replay_preparation(source, before).asset.geoms}
-    return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
+    replaced = {r.what for step in before.steps for r in step.replaced if r.kind == "hull"}  # authored ones too
+    return {name: shape for name, shape in there.items() if name not in replaced}
 
 
 @dataclass(frozen=True, slots=True)

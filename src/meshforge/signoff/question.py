@@ -47,14 +47,9 @@ class ReviewChoice:
     def of_label(label: str) -> ReviewChoice:
         return ReviewChoice(label, label, label)
 
-    @property
-    def orient_text(self) -> str | None:
-        """How assets are turned, without the word `orient`."""
-        return show(self.orient).removeprefix("orient ") if self.orient else None
-
     def to_json(self) -> dict[str, Any]:
         select = None if self.select is None else list(self.select)
-        turned = {"orient": self.orient_text} if self.orient else {}
+        turned = {"orient": show(self.orient).removeprefix("orient ")} if self.orient else {}
         return {"id": self.id, "text": self.text, "label": self.label, "select": select, **turned}
 
 

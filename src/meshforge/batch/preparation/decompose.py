@@ -75,7 +75,8 @@ def decompose_asset(
     bare, remarks = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, remarks.append)
-    missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
+    done = (entry.what for step in kept.steps for entry in step.replaced if entry.kind != "hull")
+    missed = _describe_no_match(only, [*(source.what for source in bare), *done])
     chosen = [source for source in bare if matches_only(source.what, only)]
     for number, source in enumerate(chosen):
         progress(number, len(chosen))

@@ -81,16 +81,6 @@ class Preparation:
         alike = (step for step in self.steps if step.do == do and step.settings == settings)
         return any(entry.what == hull for step in alike for entry in step.replaced)
 
-    @property
-    def source_names(self) -> tuple[str, ...]:
-        """The names of the pieces and bodies that got hulls."""
-        return tuple(r.what for step in self.steps for r in step.replaced if r.kind != "hull")
-
-    @property
-    def hulls_replaced(self) -> frozenset[str]:
-        """The names of the hulls that its steps put others in the place of, authored ones too."""
-        return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
-
     def with_step(self, step: PreparationStep, hulls: Iterable[Polytope]) -> Preparation:
         """Return the preparation with one step more, which makes these hulls."""
         return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})

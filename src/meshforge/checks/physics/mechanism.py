@@ -75,10 +75,6 @@ class ContactAttributes:
     priority: int = 0
     friction: tuple[float, ...] = (1.0, 0.005, 0.0001)
 
-    def can_meet(self, other: ContactAttributes) -> bool:
-        """Return whether the bits let the two collide."""
-        return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
-
 
 class ContactRules:
     """The contact of each hull of a mesh, in order: of the file, for a made hull of its parent, else the default.
@@ -101,7 +97,8 @@ class ContactRules:
         if frozenset((first, second)) in self.paired:
             return True
         bodies = frozenset((self.hulls[first].body, self.hulls[second].body))
-        return bodies not in self.apart and self.contacts[first].can_meet(self.contacts[second])
+        a, b = self.contacts[first], self.contacts[second]
+        return bodies not in self.apart and bool(a.contype & b.conaffinity or b.contype & a.conaffinity)
 
 
 def _parse_contact(attributes: dict[str, str]) -> ContactAttributes:
