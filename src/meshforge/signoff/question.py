@@ -1,12 +1,10 @@
 """What a person is asked about a family, how they reply, and what a reply costs a person [s], by the
 keystroke-level model (Card, Moran and Newell 1980)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, Self, get_args
 
 from meshforge.label_model.similar import CLICK, LOOK, THINK
 from meshforge.language import Orient, Program, show
@@ -43,9 +41,9 @@ class ReviewChoice:
     select: tuple[str, ...] | None = None
     orient: Orient | None = None
 
-    @staticmethod
-    def of_label(label: str) -> ReviewChoice:
-        return ReviewChoice(label, label, label)
+    @classmethod
+    def of_label(cls, label: str) -> Self:
+        return cls(label, label, label)
 
     def to_json(self) -> dict[str, Any]:
         select = None if self.select is None else list(self.select)

@@ -1,12 +1,10 @@
 """The mechanism of a mesh: which body hangs on which as MuJoCo takes it, which hulls may touch and how they rub, and
 whether the masses and inertias in its file can be those of its bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -30,12 +28,12 @@ class JointTree:
     joints: dict[str, list[Joint]] = field(default_factory=dict)
     above: dict[str, str] = field(default_factory=dict)
 
-    @staticmethod
-    def of(mesh: SymbolicMesh) -> JointTree:
+    @classmethod
+    def of(cls, mesh: SymbolicMesh) -> Self:
         """Return the tree of a mesh; bodies that a floating joint holds are roots, loops are cut."""
         known = {body.name: body.pose for body in (mesh.asset.bodies if mesh.asset else ())}
         bodies = {**known, **{hull.body: Pose.identity() for hull in mesh.hulls if hull.body not in known}}
-        tree = JointTree(bodies)
+        tree = cls(bodies)
         for joint in mesh.asset.mechanism.joints if mesh.asset else ():
             if joint.kind == "floating" or joint.child not in bodies or joint.parent not in bodies:
                 continue
