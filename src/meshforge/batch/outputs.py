@@ -157,7 +157,8 @@ class OutputFolder:
             outcome = self._commit_draft(worked)
             if isinstance(outcome, Failed):
                 self._remove_outputs(asset, list(self._files.get(asset, {})))
-                provenance.Stamp.of_failure(outcome, worked.inputs).write(provenance.stamp_path(self._out, asset))
+                stamp = provenance.Stamp(asset=asset, status="failed", inputs=worked.inputs, error=outcome.error)
+                stamp.write(provenance.stamp_path(self._out, asset))
         return outcome
 
     @contextmanager

@@ -91,11 +91,6 @@ class Stamp(BaseModel):
             labels_before=outcome.labels,
         )
 
-    @staticmethod
-    def of_failure(outcome: Failed, inputs: OutputInputs | None) -> Stamp:
-        """Return the stamp of an asset that was not written; inputs: as far as they are known."""
-        return Stamp(asset=outcome.asset, status="failed", inputs=inputs, error=outcome.error)
-
     def to_skipped(self, folder: Path) -> Skipped:
         """Return the outcome of finding this output up to date."""
         out, counts, measures = str(folder / self.out), (self.before, self.after), self.measures

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import StrEnum
-from functools import partial, wraps
+from functools import wraps
 from inspect import Parameter, Signature
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_args, get_type_hints
@@ -307,21 +307,14 @@ def asset_id(asset: str | Path, project: Project) -> str:
     if path.exists():  # another file is no asset of the project, whatever its name
         alike = [key for file, key in by_path.items() if file.is_relative_to(place)]
     else:
-        alike = [key for key in ids if _is_part(text, key)] or [key for key in ids if path.name in _last_names(key)]
+        named = (key for key in ids if path.name in (PurePath(key).name, PurePath(key).stem))
+        alike = [key for key in ids if _is_part(text, key)] or list(named)
     if len(alike) > 1:
-        remedy = f"Say which: {join_names(sorted(alike, key=partial(_count_other_parts, text)))}."
+        nearest = sorted(alike, key=lambda key: len(set(path.parts) ^ set(PurePath(key).parts)))
+        remedy = f"Say which: {join_names(nearest)}."
         raise UsageError(f"{text!r} may be any of {len(alike)} assets", where=str(project.folder), remedy=remedy)
     project.path(alike[0] if alike else text)
     return alike[0]
-
-
-def _last_names(asset: str) -> tuple[str, str]:
-    path = PurePath(asset)
-    return path.name, path.stem
-
-
-def _count_other_parts(typed: str, asset: str) -> int:
-    return len(set(PurePath(typed).parts) ^ set(PurePath(asset).parts))
 
 
 def _is_part(typed: str, asset: str) -> bool:

@@ -250,18 +250,14 @@ def _describe_nearest(nearest: synthesis.Nearest) -> Iterator[str]:
 def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) -> Iterator[str]:
     yield f"no program yet: {pluralize(len(outcome.repairs), 'label')} may be wrong"
     for repair in outcome.repairs:
-        yield f"  {describe_change(repair)}" + (f"  ({format_belief(repair)} sure)" if format_belief(repair) else "")
+        wrong, sure = repair.fix, format_belief(repair)
+        change = f"  {wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
+        yield change + (f"  ({sure} sure)" if sure else "")
         yield f"    {repair.why}"
     if outcome.proposed:
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
     yield format_next("left open", about.folder)
-
-
-def describe_change(repair: synthesis.Repair) -> str:
-    """Return `hull of asset: door -> handle`."""
-    wrong = repair.fix
-    return f"{wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
 
 
 def format_belief(repair: synthesis.Repair) -> str | None:

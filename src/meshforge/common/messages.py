@@ -2,15 +2,13 @@
 where, and what to do about it.
 """
 
-from __future__ import annotations
-
 import difflib
 import errno
 import os
 import re
 from collections.abc import Collection, Iterable, Sequence
 from functools import partial
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 _UNSAFE = re.compile(
     r"[\x00-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
@@ -120,7 +118,7 @@ class MeshForgeError(Exception):
     def _head(self) -> str:
         return f"{escape_name(self.where)}: {self.problem}" if self.where else self.problem
 
-    def at(self, where: str) -> MeshForgeError:
+    def at(self, where: str) -> Self:
         """Return the error, about `where` when it did not say yet what it is about."""
         return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
 

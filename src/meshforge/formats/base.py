@@ -1,14 +1,12 @@
 """What a format is: a reader and a writer of assets, the output it makes, and what that output loses."""
 
-from __future__ import annotations
-
 import os
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
+from typing import Any, ClassVar, Literal, Protocol, Self, runtime_checkable
 
 from meshforge.common import AssetError, CollisionLossError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
@@ -66,11 +64,11 @@ class ReadOptions:
 
     package_roots: tuple[Path, ...] = ()
 
-    @staticmethod
-    def from_environment() -> ReadOptions:
+    @classmethod
+    def from_environment(cls) -> Self:
         """Return the roots that the variables of ROS and Gazebo list: folders, colons between them."""
         listed = [folder for name in _PATHS for folder in os.environ.get(name, "").split(os.pathsep)]
-        return ReadOptions(tuple(Path(folder) for folder in dict.fromkeys(listed) if folder))
+        return cls(tuple(Path(folder) for folder in dict.fromkeys(listed) if folder))
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,7 +51,7 @@ class OutputElement:
         if self.name != self.source.attributes.get("name"):
             edits = (xml.set_attribute(data, self.source, "name", self.name), *edits)
         text = xml.apply_splices(data, edits, self.source.start, self.source.end)
-        return xml.strip_comments(text) if self.copy else text
+        return xml.COMMENT.sub(b"", text) if self.copy else text
 
 
 @dataclass(eq=False)

@@ -1,7 +1,5 @@
 """Libraries that are loaded when they are first used, and folders for what those that read files read from memory."""
 
-from __future__ import annotations
-
 import atexit
 import shutil
 import tempfile

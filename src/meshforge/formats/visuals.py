@@ -1,15 +1,13 @@
 """What an asset shows: surfaces that are read only when they are asked for, so that batches do not wait for them, with
 one base colour or picture a mesh as trimesh reads them."""
 
-from __future__ import annotations
-
 import io
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, Self, overload
 
 import numpy as np
 
@@ -33,7 +31,7 @@ class Visual:
     offset: Floats
     rgba: Rgba | None = None
 
-    def move(self, pose: Pose) -> Visual:
+    def move(self, pose: Pose) -> Self:
         """Return the visual in another root frame; pose: new_T_old."""
         if isinstance(self.what, Shape):
             return replace(self, what=self.what.move(pose))

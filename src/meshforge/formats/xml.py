@@ -23,7 +23,7 @@ _CLOSERS = {b"<!--": b"-->", b"<![CDATA[": b"]]>", b"<?": b"?>", b"<!DOCTYPE": b
 _ATTRIBUTE = re.compile(rb"\s+([^\s=/>\"']+)\s*=\s*(\"[^\"]*\"|'[^']*')")
 _ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;"}
 _ESCAPES |= {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
-_COMMENT = re.compile(rb"\s*<!--.*?-->", re.S)
+COMMENT = re.compile(rb"\s*<!--.*?-->", re.S)
 
 
 @dataclass(slots=True, eq=False)
@@ -216,11 +216,6 @@ def tag(name: str, attributes: Mapping[str, str] | None = None, closed: bool = T
 def nest(element: str, /, *inside: bytes, **attributes: str) -> list[bytes]:
     """Return the lines of an element that holds others, each line of which is indented."""
     return [tag(element, attributes, closed=False), *(b"  " + line for line in inside), b"</%s>" % element.encode()]
-
-
-def strip_comments(text: bytes) -> bytes:
-    """Return an element's text without the comments in it, for a second copy of it."""
-    return _COMMENT.sub(b"", text)
 
 
 def newline_of(data: bytes) -> bytes:

@@ -1,12 +1,10 @@
 """Arrays of points: types, write protection in frozen classes, arithmetic on rows, axis-aligned boxes around them."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import dist
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -115,16 +113,16 @@ class Aabb:
         object.__setattr__(self, "min", freeze_floats(min, (3,)))
         object.__setattr__(self, "max", freeze_floats(max, (3,)))
 
-    @staticmethod
-    def of_points(points: Floats) -> Aabb:
+    @classmethod
+    def of_points(cls, points: Floats) -> Self:
         """Return the smallest box around points (n, 3), n at least 1."""
-        return Aabb(points.min(axis=0), points.max(axis=0))
+        return cls(points.min(axis=0), points.max(axis=0))
 
-    @staticmethod
-    def union(boxes: Iterable[Aabb]) -> Aabb:
+    @classmethod
+    def union(cls, boxes: Iterable[Self]) -> Self:
         """Return the smallest box around all boxes, of which there is at least one."""
         low, high = bounds(list(boxes))
-        return Aabb(low.min(axis=0), high.max(axis=0))
+        return cls(low.min(axis=0), high.max(axis=0))
 
     @property
     def center(self) -> Floats:
@@ -140,11 +138,11 @@ class Aabb:
         """Length of the spatial diagonal [m]."""
         return dist(self.min.tolist(), self.max.tolist())
 
-    def intersects(self, other: Aabb) -> bool:
+    def intersects(self, other: Self) -> bool:
         """Return whether two boxes have more in common than a side, an edge or a corner."""
         return bool((np.maximum(self.min, other.min) < np.minimum(self.max, other.max)).all())
 
-    def touches(self, other: Aabb) -> bool:
+    def touches(self, other: Self) -> bool:
         """Return whether two boxes have anything in common, be it a corner."""
         return bool((self.min <= other.max).all() and (other.min <= self.max).all())
 

@@ -1,7 +1,5 @@
 """Distances between convex shapes, behind a comparison of AABBs: by coal, or by FCL where coal has no wheel."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from importlib.util import find_spec
 from math import inf

@@ -60,7 +60,8 @@ def apply_action(
         edits = [action.edit(group) for group in groups]
         if plugin:
             _verify_edits(plugin, groups, edits)
-    taken = set(used | names_in_use(mesh))
+    source = mesh.asset.geoms if mesh.asset else ()
+    taken = {*used, *(hull.name for hull in mesh.hulls), *(geom.name for geom in source)}
     made = [
         (_make_hull(m, label, taken, reference_length(mesh), is_alone=edit.replaces_one(m)), m)
         for edit in edits
@@ -92,12 +93,6 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
                 hull.name for hull in group.hulls
             }:
                 raise plugin.error("named hulls that it was not given as the sources of one that it made")
-
-
-def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
-    """Return the names that a made hull must not take: those of the mesh and of the file it came from."""
-    source = mesh.asset.geoms if mesh.asset else ()
-    return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
 
 def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool) -> Hull:

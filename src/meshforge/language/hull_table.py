@@ -1,10 +1,8 @@
 """The hulls of one mesh, or of several side by side, as arrays: what extractors are evaluated on."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Sequence
 from functools import cached_property
-from typing import TypeVar
+from typing import Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -84,15 +82,15 @@ class HullTable:
         found[self._places.get(label, [])] = True
         return found
 
-    def split(self) -> tuple[HullTable, ...]:
+    def split(self) -> tuple[Self, ...]:
         """Return the same for each mesh by itself."""
         return self.recall("meshes", self._split)
 
-    def _split(self) -> tuple[HullTable, ...]:
+    def _split(self) -> tuple[Self, ...]:
         parts = []
         for mesh, start, end in zip(self.meshes, self.starts, self.starts[1:], strict=False):
             labels = None if self._labels is None else self._labels[start:end]
-            parts.append(HullTable([mesh], labels, self.extremity))
+            parts.append(type(self)([mesh], labels, self.extremity))
         return tuple(parts)
 
     def recall(self, key: Hashable, make: Callable[[], Value]) -> Value:

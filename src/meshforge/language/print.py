@@ -65,7 +65,8 @@ def explain(node: Rule | Orient | Extractor) -> str:
     match node:
         case Rule(extractor, action, label):
             relabel = f"; what is made is labelled {quote_label(label)}" if label is not None else ""
-            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{relabel}."
+            comma = "," * isinstance(extractor, Intersect | Diff)  # which closes an insertion
+            sentence = f"{_action_sentence(action, explain(extractor) + comma)}{relabel}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
             return _explain_orient(node)
@@ -80,11 +81,6 @@ def explain(node: Rule | Orient | Extractor) -> str:
             return f"{_operand_phrase(left)}, except {_operand_phrase(right, left)}"
         case _:
             assert_never(node)
-
-
-def _subject_phrase(extractor: Extractor) -> str:
-    """The phrase before a verb: an insertion is closed by a comma."""
-    return explain(extractor) + "," * isinstance(extractor, Intersect | Diff)
 
 
 def _operand_phrase(part: Extractor, of: Extractor | None = None) -> str:

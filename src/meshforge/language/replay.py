@@ -1,10 +1,8 @@
 """The replay of edits on a mesh, one after the other, in the canonical frame; and the way into that frame and back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol, TypeVar
+from typing import Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -69,8 +67,9 @@ class Replay:
     used: frozenset[str] = frozenset()
     memo: Memo = make_anew
 
-    @staticmethod
+    @classmethod
     def begin(
+        cls,
         mesh: SymbolicMesh,
         orient: Orient | None = None,
         contact: float | None = None,
@@ -78,13 +77,13 @@ class Replay:
         name: str = "",
         selections: Mapping[int, Collection[str]] | None = None,
         memo: Memo = make_anew,
-    ) -> Replay:
+    ) -> Self:
         """Return a mesh before its first edit. Raises ProgramError where it cannot be turned."""
         try:
             start, pose = to_canonical_frame(mesh, orient, contact, memo)
         except MeshForgeError as error:
             raise (error.at(name) if name else error) from None
-        return Replay(mesh, pose, start, start, name, selections or {}, memo=memo)
+        return cls(mesh, pose, start, start, name, selections or {}, memo=memo)
 
     @property
     def edited(self) -> SymbolicMesh:
@@ -115,11 +114,11 @@ class Replay:
             return self.mask_of(self.selections[self.number])
         return select_mask(rule.extractor, self.mesh, EXTREMITY if extremity is None else extremity)
 
-    def advance(self, rule: Rule, templates: Mapping[str, Template], extremity: float | None = None) -> Replay:
+    def advance(self, rule: Rule, templates: Mapping[str, Template], extremity: float | None = None) -> Self:
         """Return after one more rule. Raises MeshForgeError where it cannot be done."""
         return self.apply(self.select(rule, extremity), rule.action, rule.label, templates)
 
-    def apply(self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template]) -> Replay:
+    def apply(self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template]) -> Self:
         """Return after one more action, on the hulls of a bit set. Raises MeshForgeError where it cannot be done."""
         try:
             done = self._act(mask, action, label, templates)
@@ -130,7 +129,7 @@ class Replay:
         line = RuleTrace(self.number, self.mesh.names_of(mask), done.made, done.note, done.sources, removed)
         return replace(self, mesh=mesh, used=done.used, trace=(*self.trace, line))
 
-    def skip(self, error: str | None = None) -> Replay:
+    def skip(self, error: str | None = None) -> Self:
         """Return after an edit that is left out, and why."""
         return replace(self, trace=(*self.trace, RuleTrace(self.number, error=error)))
 

@@ -1,12 +1,10 @@
 """What people selected on hulls that a preparation replaces: their steps, answers and edits by hand name the new hulls,
 each line with what it named before until a person has confirmed it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 from meshforge import store as files
 from meshforge.batch import Preparation
@@ -26,8 +24,8 @@ class HullMapping:
     parts: Mapping[str, tuple[str, ...]]
     digests: Mapping[str, str]
 
-    @staticmethod
-    def between(preparation: Preparation, old: Mapping[str, str], new: Mapping[str, str]) -> HullMapping:
+    @classmethod
+    def between(cls, preparation: Preparation, old: Mapping[str, str], new: Mapping[str, str]) -> Self:
         """Return of the hulls that are no more after a preparation; old, new: digests of the hulls before and after
         it."""
         replaced = {r.what: tuple(r.made) for step in preparation.steps for r in step.replaced if r.kind == "hull"}
@@ -38,7 +36,7 @@ class HullMapping:
             return tuple(part for made in replaced[name] for part in expand(made))
 
         found = {name: expand(name) for name in old if name not in new}
-        return HullMapping({name: parts for name, parts in found.items() if parts}, {**new, **old})
+        return cls({name: parts for name, parts in found.items() if parts}, {**new, **old})
 
     def map_names(self, names: Iterable[str]) -> tuple[str, ...]:
         """Return names with the parts of each hull in its place, sorted."""

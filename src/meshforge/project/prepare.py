@@ -1,13 +1,11 @@
 """What is done to assets before the program: hulls decomposed, cut and rebuilt, with labels and selections that follow
 them. Each change is an entry of the project's history."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names, write_atomically
@@ -127,13 +125,13 @@ class HullChange:
     old: Mapping[str, Shape]
     mesh: SymbolicMesh
 
-    @staticmethod
-    def read(store: Store, asset: str, after: batch.Preparation) -> HullChange:
+    @classmethod
+    def read(cls, store: Store, asset: str, after: batch.Preparation) -> Self:
         """Raise AssetError where the asset cannot be read, or the preparation does not fit it."""
         source = read(store.path(asset))
         before = read_or_empty(store.layout.preparation(asset))
         mesh = SymbolicMesh.of(batch.apply_preparation(source, after))
-        return HullChange(store, asset, before, after, _list_hulls(source, before), mesh)
+        return cls(store, asset, before, after, _list_hulls(source, before), mesh)
 
     @property
     def mapping(self) -> HullMapping:
@@ -192,7 +190,8 @@ def _list_hulls(source: Asset, before: batch.Preparation) -> dict[str, Shape]:
     """
     made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
     there = made | {geom.name: geom.shape for geom in batch.replay_preparation(source, before).asset.geoms}
-    return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
+    replaced = {r.what for step in before.steps for r in step.replaced if r.kind == "hull"}  # authored ones too
+    return {name: shape for name, shape in there.items() if name not in replaced}
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,5 @@
 """A project as people use it: a `Store` whose further methods are the use cases, each a function of a store."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -32,33 +30,34 @@ class Project(Store):
 
     # Opening
 
-    @staticmethod
+    @classmethod
     def create(
+        cls,
         folder: str | Path,
         assets: Sequence[str | Path],
         *,
         name: str | None = None,
         vocabulary: Sequence[str] = (),
         orient: Orient | str | None = None,
-    ) -> Project:
+    ) -> Self:
         """Make a project folder for some assets, given as files, folders and globs.
 
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
-        return Project.open(create_folder(folder, assets, name, vocabulary, orient))
+        return cls.open(create_folder(folder, assets, name, vocabulary, orient))
 
     def with_cache(self, cache: MeshCache | None = None) -> Self:
         """Return the same project, whose meshes stay in memory as long as their files do not change."""
         return replace(self, cache=cache or MeshCache())
 
-    def add_assets(self, paths: Iterable[str | Path]) -> Project:
+    def add_assets(self, paths: Iterable[str | Path]) -> Self:
         """Return the project with more assets: files below the folder that ids count from. Raises ProjectError for
         others."""
         with self.lock():
             added = add_assets(self.folder, self.every, paths)
             if away := [asset for asset in added if asset in self.exclusions()]:
-                Project.open(self.folder).exclude(away, None)
-        return Project.open(self.folder)
+                self.open(self.folder).exclude(away, None)
+        return self.open(self.folder)
 
     # Labels
 

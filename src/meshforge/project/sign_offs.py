@@ -2,13 +2,11 @@
 to date; void when anything changes of what they rest on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 from meshforge import batch, language, signoff
 from meshforge.batch import EXECUTION_DEFAULTS
@@ -92,23 +90,21 @@ class AssessmentBasis:
     inputs_digest: str
     inputs: Mapping[str, batch.OutputInputs]
 
-    @staticmethod
-    def take(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
+    @classmethod
+    def take(cls, store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> Self:
         """Return the digests as they are, of edits by an empty program: which it will be is often learned since."""
-        return AssessmentBasis(
-            digest_inputs(store), _digest_edits(store, run.build_task(store, language.Program()), execution)
-        )
+        return cls(digest_inputs(store), _digest_edits(store, run.build_task(store, language.Program()), execution))
 
-    def under(self, store: Store, program: language.Program | None) -> AssessmentBasis:
+    def under(self, store: Store, program: language.Program | None) -> Self:
         """Return the same of edits by a program; without one there are none."""
         if program is None:
-            return AssessmentBasis(self.inputs_digest, {})
+            return replace(self, inputs={})
         digest, templates = batch.program_digest(program), batch.template_digests(store.templates(program.templates))
         edits = {
             asset: now.model_copy(update={"program": digest, "templates": {**now.templates, **templates}})
             for asset, now in self.inputs.items()
         }
-        return AssessmentBasis(self.inputs_digest, edits)
+        return replace(self, inputs=edits)
 
 
 def keep_assessment(

@@ -4,15 +4,13 @@ logistic function (Platt 1999); and the threshold from which on an asset is sign
 control over families (Angelopoulos et al. 2024). All of it is fitted on sessions of calibration families
 (`python -m benchmark.signoff fit`)."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -204,12 +202,12 @@ class AssetConfidence:
     probability: float
     reasons: tuple[Reason, ...] = ()
 
-    def with_reasons(self, more: Iterable[Reason]) -> AssetConfidence:
+    def with_reasons(self, more: Iterable[Reason]) -> Self:
         """Return the same with further doubts: it is at most as probable as that the weightiest of them is none."""
         more = list(more)
         probability = min([self.probability, *(1 - one.share for one in more)])
         reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]
-        return AssetConfidence(self.asset, probability, tuple(reasons))
+        return replace(self, probability=probability, reasons=tuple(reasons))
 
     def to_json(self) -> dict[str, Any]:
         return {

@@ -1,12 +1,10 @@
 """What a person is asked about a family, how they reply, and what a reply costs a person [s], by the
 keystroke-level model (Card, Moran and Newell 1980)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, Self, get_args
 
 from meshforge.label_model.similar import CLICK, LOOK, THINK
 from meshforge.language import Orient, Program, show
@@ -43,18 +41,13 @@ class ReviewChoice:
     select: tuple[str, ...] | None = None
     orient: Orient | None = None
 
-    @staticmethod
-    def of_label(label: str) -> ReviewChoice:
-        return ReviewChoice(label, label, label)
-
-    @property
-    def orient_text(self) -> str | None:
-        """How assets are turned, without the word `orient`."""
-        return show(self.orient).removeprefix("orient ") if self.orient else None
+    @classmethod
+    def of_label(cls, label: str) -> Self:
+        return cls(label, label, label)
 
     def to_json(self) -> dict[str, Any]:
         select = None if self.select is None else list(self.select)
-        turned = {"orient": self.orient_text} if self.orient else {}
+        turned = {"orient": show(self.orient).removeprefix("orient ")} if self.orient else {}
         return {"id": self.id, "text": self.text, "label": self.label, "select": select, **turned}
 
 

@@ -1,11 +1,9 @@
 """What all that people said of a family comes to: a fold over its events, which are read and written here."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import assert_never
+from typing import Self, assert_never
 
 from meshforge.common import write_atomically
 from meshforge.store import events as kinds
@@ -36,8 +34,8 @@ class Feedback:
         every = self.verdicts.get(asset, ())
         return every[-1] if every else None
 
-    @staticmethod
-    def of(events: Iterable[Event]) -> Feedback:
+    @classmethod
+    def of(cls, events: Iterable[Event]) -> Self:
         """Return what events come to; of several on one thing the last counts."""
         answers, fixes = dict[str, kinds.AnswerEvent](), dict[str, kinds.LabelFixEvent]()
         verdicts, exclusions = dict[str, tuple[kinds.VerdictEvent, ...]](), dict[str, kinds.ExclusionEvent]()
@@ -62,7 +60,7 @@ class Feedback:
                 case _:
                     assert_never(event)
             replied |= {event.question: event} if event.question else {}
-        return Feedback(
+        return cls(
             {one.id: one for one in sorted(answers.values(), key=lambda one: (one.rule, one.asset))},
             dict(sorted(fixes.items())),
             dict(sorted((asset, some) for asset, some in verdicts.items() if some)),

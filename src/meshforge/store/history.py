@@ -2,8 +2,6 @@
 never one between, once the history is used again: a change is noted before it begins and becomes an entry when it is
 done."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
@@ -12,7 +10,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from threading import RLock
-from typing import Any, Literal, NamedTuple, assert_never
+from typing import Any, Literal, NamedTuple, Self, assert_never
 
 from meshforge.batch import hold_lock
 from meshforge.common import MeshForgeError, ProjectError, relative_name
@@ -77,7 +75,7 @@ class History:
         self._snapshots = Snapshots(folder, BlobStore(layout.history / "blobs"))
 
     @classmethod
-    def open(cls, folder: Path, derived: Callable[[], frozenset[str]] = frozenset) -> History:
+    def open(cls, folder: Path, derived: Callable[[], frozenset[str]] = frozenset) -> Self:
         """Return the history of a project, with what a kill left under way brought to an end, and without contents that
         no entry mentions."""
         history = cls(folder, derived)

@@ -57,11 +57,6 @@ class ProjectFile:
         """Return the file in a project's folder; for no asset the folder of those of all assets."""
         return folder / (self.name.partition("{")[0] if asset is None else self.name.format(asset=asset, name=asset))
 
-    @property
-    def is_of_asset(self) -> bool:
-        """Whether each asset has one of its own."""
-        return "{asset}" in self.name
-
 
 class OneFile(ProjectFile):
     """A file that a project has once: a path in a layout."""
@@ -157,7 +152,7 @@ class Layout:
 
     def list_kept(self, asset: str) -> tuple[Path, ...]:
         """Return the files and folders that a project keeps for an asset, whether they are there or not."""
-        return tuple(file.path(self.folder, asset) for file in list_files() if file.is_of_asset and file.hulls)
+        return tuple(file.path(self.folder, asset) for file in list_files() if "{asset}" in file.name and file.hulls)
 
 
 @cache

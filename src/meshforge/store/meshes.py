@@ -4,8 +4,7 @@ kept on disk, so that a status need not read hundreds of files again.
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -240,26 +239,6 @@ class AssetFiles:
 def read_labels_file(path: Path) -> symbolic.LabelFile:
     """Return the labels of an asset as they are kept; empty where there are none."""
     return symbolic.read_labels(path) if path.exists() else symbolic.LabelFile()
-
-
-def format_labels_file(
-    path: Path,
-    hulls: Mapping[str, str],
-    labels: Mapping[str, symbolic.Label],
-    vocabulary: Sequence[str],
-    away: Collection[str] = (),
-) -> str | None:
-    """Return the text of a labels file, None where nothing is labelled. path: of the file as it is, of which labels of
-    hulls that are gone stay; the other arguments are those of `Store.write_labels`."""
-    present = {name: labels[name] for name in hulls if name in labels}
-    text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
-    gone = [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]
-    if gone:
-        old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
-        new["hulls"] |= {name: old["hulls"][name] for name in gone}
-        new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
-        text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-    return text if present or gone else None
 
 
 def hull_digests(mesh: symbolic.SymbolicMesh) -> dict[str, str]:

@@ -11,16 +11,9 @@ from pydantic import AliasChoices, ConfigDict, Field
 
 from meshforge import language, synthesis
 from meshforge.batch import ManualEdit, action_text, read_template
-from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
+from meshforge.common import MeshForgeError, ProjectError, join_names, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, write_json
-
-
-def list_templates(layout: Layout) -> tuple[str, ...]:
-    """Return the names of templates as actions write them, sorted."""
-    folder = layout.own_templates
-    paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
-    return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
 
 def check_template(layout: Layout, name: str, data: bytes) -> None:

@@ -1,11 +1,9 @@
 """signoffs.jsonl: which assets are signed off, and what that rests on; and what was found when the family was looked
 at last."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Self
 
 from pydantic import AliasChoices, Field
 
@@ -29,10 +27,10 @@ class SignOffBasis(OutputInputs):
     answers: str | None = Field(default=None, validation_alias=AliasChoices("answers", "said"))
     output: str | None = None
 
-    @staticmethod
-    def of(edit: OutputInputs, settings: str, answers: str, output: str | None) -> SignOffBasis:
+    @classmethod
+    def of(cls, edit: OutputInputs, settings: str, answers: str, output: str | None) -> Self:
         fields = dict(edit) | {"settings": settings, "software": "", "answers": answers, "output": output}
-        return SignOffBasis.model_construct(**fields)
+        return cls.model_construct(**fields)
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
         """Return what differs between the two, in words."""
@@ -78,7 +76,7 @@ class ConfidenceLine(JsonFile):
         """Return whether it may be signed off."""
         return self.looked_at or (self.probability >= threshold and not self.is_outlier)
 
-    def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
+    def with_alarms(self, alarms: Sequence[str]) -> Self:
         """Return the same where these alarms are not more than those it knows, or a person looked at it; else an
         outlier, and by what."""
         if self.looked_at or len(alarms) <= sum(reason.kind == "alarm" for reason in self.reasons):
@@ -87,14 +85,15 @@ class ConfidenceLine(JsonFile):
         reasons = tuple(signoff.Reason("alarm", text) for text in alarms)
         return self.model_copy(update={"reasons": (*reasons, *others), "is_outlier": True})
 
-    @staticmethod
+    @classmethod
     def of(
+        cls,
         found: signoff.AssetConfidence,
         rests_on: OutputInputs,
         looked_at: bool,
         measures: signoff.EditMeasures | None = None,
-    ) -> ConfidenceLine:
-        return ConfidenceLine(
+    ) -> Self:
+        return cls(
             probability=found.probability,
             reasons=found.reasons,
             rests_on=rests_on,
@@ -113,7 +112,7 @@ class AssessmentFile(JsonFile):
     wrong: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
-    def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
+    def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> Self:
         """Return the same, and what stands out among outputs that were written since; alarms: sentences by asset."""
         lines = {name: line.with_alarms(alarms.get(name, ())) for name, line in self.assets.items()}
         return self.model_copy(update={"assets": lines})

@@ -1,5 +1,6 @@
 """The project folder: its state lies in files alone, every change is one atomic write under the project's lock."""
 
+import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
@@ -15,9 +16,11 @@ from meshforge.common import (
     ProjectError,
     file_state,
     nearest_name,
+    relative_name,
     write_all_atomically,
     write_atomically,
 )
+from meshforge.formats import MESH_SUFFIXES
 from meshforge.signoff.question import NOT_OF_FAMILY, ExclusionReason
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
@@ -25,7 +28,7 @@ from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEv
 from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
-from meshforge.store.meshes import AssetFiles, format_labels_file, read_labels_file
+from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
@@ -249,7 +252,15 @@ class Store:
     ) -> str | None:
         """Return what `write_labels` writes; None where the file is to be removed. away: names of hulls that are gone
         whose labels do not stay."""
-        return format_labels_file(self.layout.labels(asset), hulls, labels, vocabulary, away)
+        path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
+        text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
+        gone = [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]
+        if gone:
+            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
+            new["hulls"] |= {name: old["hulls"][name] for name in gone}
+            new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
+            text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
+        return text if present or gone else None
 
     def write_labels_files(self, texts: Mapping[str, str | None]) -> None:
         """Write labels files, by asset, under the lock that the caller holds; None removes one."""
@@ -317,7 +328,9 @@ class Store:
 
     def template_names(self) -> tuple[str, ...]:
         """Return the names of all templates in the project's folder of them, as actions write them."""
-        return program_files.list_templates(self.layout)
+        folder = self.layout.own_templates
+        paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+        return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
     def add_template(self, name: str, data: bytes) -> None:
         """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""

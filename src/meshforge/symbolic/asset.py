@@ -1,11 +1,9 @@
 """What every file becomes: bodies, convex geoms, pieces that are no hulls, joints, masses, and the source document."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
@@ -166,7 +164,7 @@ class Mechanism:
     apart: tuple[tuple[str, str], ...] = ()
     paired: tuple[tuple[str, str], ...] = ()
 
-    def move(self, pose: Pose) -> Mechanism:
+    def move(self, pose: Pose) -> Self:
         """Return the mechanism in another root frame; pose: new_T_old."""
         turn = pose.rotation
         return replace(
@@ -236,7 +234,7 @@ class Asset:
     def body_poses(self) -> dict[str, Pose]:
         return {body.name: body.pose for body in self.bodies}
 
-    def with_geoms(self, geoms: Iterable[Geom]) -> Asset:
+    def with_geoms(self, geoms: Iterable[Geom]) -> Self:
         return replace(self, geoms=tuple(geoms))
 
 

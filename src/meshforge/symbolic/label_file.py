@@ -1,7 +1,5 @@
 """Labels as JSON beside an asset, by hull name, with digests by which they follow hulls that were renamed."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -9,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 from meshforge.common import AssetError, suggest_name, write_atomically
 from meshforge.geometry import digest
@@ -34,16 +32,16 @@ class LabelFile:
     def __reduce__(self) -> tuple[Any, ...]:
         return LabelFile, (self.vocabulary, dict(self.labels), dict(self.digests))
 
-    def rename(self, old: str, new: str) -> LabelFile:
+    def rename(self, old: str, new: str) -> Self:
         """Return the same where a label has another name."""
         labels = {hull: label.rename(old, new) for hull, label in self.labels.items()}
-        return LabelFile(tuple(new if word == old else word for word in self.vocabulary), labels, self.digests)
+        return type(self)(tuple(new if word == old else word for word in self.vocabulary), labels, self.digests)
 
-    def fill(self, classes: LabelFile) -> LabelFile:
+    def fill(self, classes: Self) -> Self:
         """Return the same with the classes of hulls that it says nothing of."""
         if not classes.labels:
             return self
-        return LabelFile(
+        return type(self)(
             tuple(dict.fromkeys([*self.vocabulary, *classes.vocabulary])),
             MappingProxyType({**classes.labels, **self.labels}),
             MappingProxyType({**classes.digests, **self.digests}),

@@ -1,14 +1,12 @@
 """The symbolic collision mesh: hulls, their contact graph, and selections of hulls as bit sets."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import import_module
 from math import dist
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -41,10 +39,10 @@ class SymbolicMesh:
     epsilon: float = EPSILON
     scale: float | None = None
 
-    @staticmethod
-    def of(asset: Asset, labels: Mapping[str, Label | str] | None = None) -> SymbolicMesh:
+    @classmethod
+    def of(cls, asset: Asset, labels: Mapping[str, Label | str] | None = None) -> Self:
         """Return the mesh of an asset, with labels by the names of hulls; other names in `labels` are ignored."""
-        mesh = SymbolicMesh(tuple(Hull(g.name, g.body, g.shape, parent=g.parent) for g in asset.geoms), asset)
+        mesh = cls(tuple(Hull(g.name, g.body, g.shape, parent=g.parent) for g in asset.geoms), asset)
         return mesh.with_labels(labels) if labels else mesh
 
     def __repr__(self) -> str:
@@ -185,12 +183,12 @@ class SymbolicMesh:
         """Return the names of the hulls in a bit set, in their order."""
         return tuple(self.hulls[index].name for index in sorted(bits_of(mask)))
 
-    def with_labels(self, labels: Mapping[str, Label | str | None]) -> SymbolicMesh:
+    def with_labels(self, labels: Mapping[str, Label | str | None]) -> Self:
         """Return the mesh with some labels set, or taken away by None; names that no hull has are ignored."""
         given = {name: None if label is None else Label.of(label) for name, label in labels.items()}
         return self.with_hulls(h.with_label(given[h.name]) if h.name in given else h for h in self.hulls)
 
-    def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
+    def with_hulls(self, hulls: Iterable[Hull]) -> Self:
         """Return the mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
         if self.known_graph is not None and edited.contact_distance == self.contact_distance:
@@ -207,7 +205,7 @@ class SymbolicMesh:
         named = self.names_in_file
         return self.asset.with_geoms(Geom(named.get(h.name, h.name), h.body, h.shape, h.parent) for h in self.hulls)
 
-    def as_written(self, names: Mapping[str, str], back: Asset) -> SymbolicMesh:
+    def as_written(self, names: Mapping[str, str], back: Asset) -> Self:
         """Return the mesh with the names and shapes of its hulls in the file that was written of it, for the labels
         beside it.
 
@@ -215,7 +213,7 @@ class SymbolicMesh:
         """
         there = {geom.name: geom.shape for geom in back.geoms}
         renamed = (replace(hull, name=names.get(hull.name, hull.name)) for hull in self.hulls)
-        return SymbolicMesh(tuple(replace(hull, shape=there.get(hull.name, hull.shape)) for hull in renamed))
+        return type(self)(tuple(replace(hull, shape=there.get(hull.name, hull.shape)) for hull in renamed))
 
     @property
     def names_in_file(self) -> dict[str, str]:

@@ -45,8 +45,9 @@ def find_open_rule(
     split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
-    selections = (_hull_names(ranked, candidate, split.asset) for candidate in split.choices)
-    return OpenRule(rule, names[split.asset], tuple(map(frozenset, selections)))
+    field, mesh = ranked.field, ranked.field.meshes[split.asset]
+    masks = (field.on(ranked.terms[candidate].bits, split.asset) for candidate in split.choices)
+    return OpenRule(rule, names[split.asset], tuple(frozenset(mesh.names_of(mask)) for mask in masks))
 
 
 def suggest_demonstration(learned: Sequence[tuple[RankedCandidates, Sequence[str]]]) -> Hint | None:
@@ -74,10 +75,6 @@ def _suggest_strangest(ranked: RankedCandidates, names: Sequence[str]) -> Hint |
     if asset is None or not fresh[asset]:
         return None
     return Hint(asset, f"it has {pluralize(fresh[asset], 'hull')} unlike any that was demonstrated")
-
-
-def _hull_names(ranked: RankedCandidates, candidate: int, mesh: int) -> tuple[str, ...]:
-    return ranked.field.meshes[mesh].names_of(ranked.field.on(ranked.terms[candidate].bits, mesh))
 
 
 def select_sample(learned: Sequence[FieldCandidates], trust: Mapping[str, float]) -> tuple[str, ...]:

@@ -1,10 +1,8 @@
 """What learning results in: a closed union whose members share the attributes that callers read, and its JSON."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Self
 
 from meshforge.language import Extractor, Program, Rule, show, size_of
 from meshforge.synthesis.demonstration import Answer, Hint, OpenRule, Repair
@@ -45,9 +43,9 @@ class Nearest:
     extra: tuple[str, ...]
     missing: tuple[str, ...]
 
-    @staticmethod
-    def of(rule: int, miss: NearestExtractor) -> Nearest:
-        return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
+    @classmethod
+    def of(cls, rule: int, miss: NearestExtractor) -> Self:
+        return cls(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,7 @@ from glob import escape
 from importlib.metadata import version
 from math import floor
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -75,7 +75,8 @@ def decompose_asset(
     bare, remarks = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, remarks.append)
-    missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
+    done = (entry.what for step in kept.steps for entry in step.replaced if entry.kind != "hull")
+    missed = _describe_no_match(only, [*(source.what for source in bare), *done])
     chosen = [source for source in bare if matches_only(source.what, only)]
     for number, source in enumerate(chosen):
         progress(number, len(chosen))
@@ -91,7 +92,8 @@ def decompose_asset(
         taken |= entry.made.keys()
     progress(len(chosen), len(chosen))
     if made:
-        used = {**settings_to_json(settings, hollow), "by": by, **({"only": list(only)} if only else {})}
+        used = {"method": settings.engine, "hollow": hollow, **settings.as_dict(), "by": by}
+        used |= {"only": list(only)} if only else {}
         step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
         kept = kept.with_step(step, hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
@@ -221,11 +223,6 @@ def decompose_surface(
         note("it is flat, so its hulls are thin sheets")
         return geometry.sheet_hulls(surface.vertices, surface.faces, run, name)
     return run(surface.vertices, surface.faces)
-
-
-def settings_to_json(settings: DecomposeSettings, hollow: bool) -> dict[str, Any]:
-    """Return the settings as a preparation keeps them."""
-    return {"method": settings.engine, "hollow": hollow, **settings.as_dict()}
 
 
 def software_versions(settings: DecomposeSettings | None = None) -> dict[str, str]:

@@ -1,12 +1,10 @@
 """A preparation as data: what of an asset can be decomposed, which pieces are replaced by which hulls and how these
 were made; and replayed on an asset as it was read."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -81,21 +79,12 @@ class Preparation:
         alike = (step for step in self.steps if step.do == do and step.settings == settings)
         return any(entry.what == hull for step in alike for entry in step.replaced)
 
-    @property
-    def source_names(self) -> tuple[str, ...]:
-        """The names of the pieces and bodies that got hulls."""
-        return tuple(r.what for step in self.steps for r in step.replaced if r.kind != "hull")
-
-    @property
-    def hulls_replaced(self) -> frozenset[str]:
-        """The names of the hulls that its steps put others in the place of, authored ones too."""
-        return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
-
-    def with_step(self, step: PreparationStep, hulls: Iterable[Polytope]) -> Preparation:
+    def with_step(self, step: PreparationStep, hulls: Iterable[Polytope]) -> Self:
         """Return the preparation with one step more, which makes these hulls."""
-        return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})
+        made = {hull_digest(hull): hull for hull in hulls}
+        return replace(self, steps=(*self.steps, step), hulls={**self.hulls, **made})
 
-    def with_only(self, steps: Iterable[PreparationStep]) -> Preparation:
+    def with_only(self, steps: Iterable[PreparationStep]) -> Self:
         """Return the preparation with these of its steps, and their hulls."""
         shorter = replace(self, steps=tuple(steps))
         return replace(shorter, hulls={known: self.hulls[known] for known in shorter.hull_digests.values()})

@@ -1,7 +1,5 @@
 """The report: one HTML file that holds everything it shows. What `page.html.j2` says is worked out here."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -9,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple, Self, get_args
 
 from meshforge.batch.execution import execute
 from meshforge.batch.report import contents
@@ -192,9 +190,9 @@ class _LegendRow(NamedTuple):
     name: str
     text: str
 
-    @staticmethod
-    def of(name: str, color: str, before: int, after: int) -> _LegendRow:
-        return _LegendRow(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
+    @classmethod
+    def of(cls, name: str, color: str, before: int, after: int) -> Self:
+        return cls(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
 
 
 def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, str], blamed: bool) -> list[_LegendRow]:

@@ -1,12 +1,10 @@
 """The mechanism of a mesh: which body hangs on which as MuJoCo takes it, which hulls may touch and how they rub, and
 whether the masses and inertias in its file can be those of its bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -30,12 +28,12 @@ class JointTree:
     joints: dict[str, list[Joint]] = field(default_factory=dict)
     above: dict[str, str] = field(default_factory=dict)
 
-    @staticmethod
-    def of(mesh: SymbolicMesh) -> JointTree:
+    @classmethod
+    def of(cls, mesh: SymbolicMesh) -> Self:
         """Return the tree of a mesh; bodies that a floating joint holds are roots, loops are cut."""
         known = {body.name: body.pose for body in (mesh.asset.bodies if mesh.asset else ())}
         bodies = {**known, **{hull.body: Pose.identity() for hull in mesh.hulls if hull.body not in known}}
-        tree = JointTree(bodies)
+        tree = cls(bodies)
         for joint in mesh.asset.mechanism.joints if mesh.asset else ():
             if joint.kind == "floating" or joint.child not in bodies or joint.parent not in bodies:
                 continue
@@ -75,10 +73,6 @@ class ContactAttributes:
     priority: int = 0
     friction: tuple[float, ...] = (1.0, 0.005, 0.0001)
 
-    def can_meet(self, other: ContactAttributes) -> bool:
-        """Return whether the bits let the two collide."""
-        return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
-
 
 class ContactRules:
     """The contact of each hull of a mesh, in order: of the file, for a made hull of its parent, else the default.
@@ -101,7 +95,8 @@ class ContactRules:
         if frozenset((first, second)) in self.paired:
             return True
         bodies = frozenset((self.hulls[first].body, self.hulls[second].body))
-        return bodies not in self.apart and self.contacts[first].can_meet(self.contacts[second])
+        a, b = self.contacts[first], self.contacts[second]
+        return bodies not in self.apart and bool(a.contype & b.conaffinity or b.contype & a.conaffinity)
 
 
 def _parse_contact(attributes: dict[str, str]) -> ContactAttributes:

@@ -1,14 +1,12 @@
 """The document of a glTF file: its container, its JSON, with values of any type, and one error for all damage."""
 
-from __future__ import annotations
-
 import json
 import re
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -37,11 +35,11 @@ class Container:
     chunks: tuple[tuple[int, bytes], ...] = ()
     rest: bytes = b""
 
-    @staticmethod
-    def of(data: bytes) -> Container:
+    @classmethod
+    def of(cls, data: bytes) -> Self:
         """Return the container in the bytes of a file. Raises ValueError: a damaged GLB, or not of version 2."""
         if data[:4] != MAGIC:
-            return Container(data)
+            return cls(data)
         if len(data) < _HEADER + 8:
             raise ValueError("it is cut short")
         version, length = struct.unpack_from("<II", data, 4)
@@ -52,20 +50,20 @@ class Container:
         chunks, at = _split_chunks(data, length)
         if not chunks or chunks[0][0] != _JSON:
             raise ValueError("its first chunk is not the JSON")
-        return Container(chunks[0][1], True, tuple(chunks[1:]), data[at:])
+        return cls(chunks[0][1], True, tuple(chunks[1:]), data[at:])
 
     @property
     def binary(self) -> bytes | None:
         """The chunk that holds the first buffer, None where there is none."""
         return next((content for kind, content in self.chunks if kind == _BIN), None)
 
-    def with_text(self, text: bytes, binary: bytes | None) -> Container:
+    def with_text(self, text: bytes, binary: bytes | None) -> Self:
         """Return the container with another JSON, and another binary chunk where one is given."""
         chunks = list(self.chunks)
         if binary is not None:
             at = next((k for k, (kind, _) in enumerate(chunks) if kind == _BIN), None)
             chunks[slice(0, 0) if at is None else slice(at, at + 1)] = [(_BIN, binary)]
-        return Container(text, self.is_binary, tuple(chunks), self.rest)
+        return replace(self, text=text, chunks=tuple(chunks))
 
     def as_bytes(self) -> bytes:
         """Return the bytes of the file; chunks are padded to multiples of four, as the format asks for."""

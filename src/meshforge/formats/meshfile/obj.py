@@ -131,11 +131,6 @@ def _parse(data: bytes, where: str) -> ObjText:
     )
 
 
-def line_of(statements: tuple[bytes, ...] | list[bytes], index: int) -> int:
-    """Return the line on which a statement starts, from 1."""
-    return 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
-
-
 def arguments(statement: bytes) -> list[bytes]:
     """Return the words after the keyword, without a comment at the end."""
     if b"\\" in statement:
@@ -218,7 +213,8 @@ def _quote(statement: bytes) -> str:
 
 
 def _error_at(problem: str, statements: list[bytes], index: int, where: str, remedy: str | None = None) -> AssetError:
-    return AssetError(problem, where=f"{where}:{line_of(statements, index)}", remedy=remedy)
+    line = 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
+    return AssetError(problem, where=f"{where}:{line}", remedy=remedy)
 
 
 def keywords(statements: Sequence[bytes]) -> list[bytes]:

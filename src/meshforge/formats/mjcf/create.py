@@ -3,7 +3,6 @@
 import posixpath
 from collections import Counter
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -36,16 +35,13 @@ _TINY = 1e-12  # [m^3], below which MuJoCo cannot compute a mass from the volume
 _FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
 
 
-def create_mjcf(asset: Asset, name: str) -> Output:
-    """Return the files of an asset that came from another format.
+class MjcfCreator:
+    """Makes the files of an asset that came from another format.
 
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
     geoms or meshes, one a file; non-convex pieces meshes, whose hulls MuJoCo takes; visuals geoms that do not collide.
     """
-    return _Creator(asset, Path(name).stem).build_output()
 
-
-class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
         self.tree = kinematic_tree.BodyTree.of(asset)

@@ -59,7 +59,7 @@ class MjcfFormat(base.Format):
     def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.mjcf import create  # lazy: only MJCF needs it
 
-        return create.create_mjcf(asset, name)
+        return create.MjcfCreator(asset, Path(name).stem).build_output()
 
     def top(self, asset: Asset) -> Path:
         if not isinstance(asset.document, MjcfDocument):

@@ -16,16 +16,13 @@ _VERSION, _WITH_COUPLINGS = (1, 8), "1.11"
 _MAIN = "model.sdf"
 
 
-def create_sdf(asset: Asset, name: str) -> Output:
-    """Return the files of an asset that came from another format.
+class SdfCreator(link_output.LinkCreator):
+    """Makes the files of an asset that came from another format.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.
     """
-    return _Creator(asset, name).build_output()
 
-
-class _Creator(link_output.LinkCreator):
     native = edit.SdfShape
     title = "SDF"
     kinds = ("fixed", "revolute", "prismatic", "ball", "floating")

@@ -49,7 +49,7 @@ class SdfFormat(base.Format):
     def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.sdf import create  # lazy: only SDF needs it
 
-        return create.create_sdf(asset, name)
+        return create.SdfCreator(asset, name).build_output()
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, SdfDocument):

@@ -72,16 +72,13 @@ class ModelTree:
         return self.frames.pose_of(scope.path, at.base, f"{link.where}:{at.line}") @ at.pose
 
 
-def read_models(path: Path, roots: tuple[Path, ...]) -> ModelTree:
-    """Return the models of the file at an absolute path, and of those it includes.
+class ModelReader:
+    """Reads the models of the file at an absolute path, and of those it includes, into `tree`.
 
     Raises AssetError with `file:line`: text that is not understood, a model that is not there or includes itself, no
     link at all, two models or links of one name, a frame that is not there.
     """
-    return _Composer(path, roots).tree
 
-
-class _Composer:
     def __init__(self, path: Path, roots: tuple[Path, ...]) -> None:
         self.roots = roots
         self.files: dict[Path, _File] = {}

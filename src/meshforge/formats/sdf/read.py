@@ -34,7 +34,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
 
     Raises AssetError naming file, line, link and element: text not understood, a missing frame, model or mesh.
     """
-    tree = models.read_models(plain_path(path), tuple(map(plain_path, options.package_roots)))
+    tree = models.ModelReader(plain_path(path), tuple(map(plain_path, options.package_roots))).tree
     reader, links = _SdfReader(tree), tree.links
     collisions = reader.read_collisions(links.values())
     elements = [element for _, element in collisions.found]

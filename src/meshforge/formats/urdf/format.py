@@ -57,9 +57,9 @@ class UrdfFormat(base.Format):
         return edit.write_urdf(asset, asset.document, name, capsules=self.has_capsules)
 
     def create(self, asset: Asset, name: str) -> base.Output:
-        from meshforge.formats.urdf import create  # lazy: only URDF needs it
+        from meshforge.formats.urdf import edit  # lazy: only URDF needs it
 
-        return create.create_urdf(asset, name, capsules=self.has_capsules)
+        return edit.create_urdf(asset, name, capsules=self.has_capsules)
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, UrdfDocument):

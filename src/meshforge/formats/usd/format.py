@@ -46,9 +46,9 @@ class UsdFormat(base.SceneFormat):
         return call_isolated(edit.write_usd, asset, asset.document, name, mass, where=str(asset.path))
 
     def create(self, asset: Asset, name: str) -> base.Output:
-        from meshforge.formats.usd import create  # lazy: only USD needs it
+        from meshforge.formats.usd import edit  # lazy: only USD needs it
 
-        return create.create_usd(asset, name)
+        return edit.create_usd(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         if not isinstance(asset.document, UsdDocument):

@@ -1,10 +1,8 @@
 """Prims as specs of a layer: shapes, meshes and masses, in the space that they are put in."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -28,10 +26,10 @@ class PrimSpace:
     linear: Floats
     offset: Floats
 
-    @staticmethod
-    def of(scene: UsdStage, prim: Any) -> PrimSpace:
+    @classmethod
+    def of(cls, scene: UsdStage, prim: Any) -> Self:
         """Return the space of a prim of a stage."""
-        return PrimSpace(*scene.placement(prim))
+        return cls(*scene.placement(prim))
 
     def holds_volume(self) -> bool:
         """Return whether what is put into it keeps its volume."""

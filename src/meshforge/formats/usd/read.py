@@ -1,11 +1,9 @@
 """Reading a USD file: from its stage to an asset, with what it shows, the files that it is made of, and notes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -166,10 +164,10 @@ class StageSurfaces(LazySurfaces):
     def __init__(self, path: Path, bodies: dict[str, str]) -> None:
         self._path, self._bodies = path, bodies
 
-    @staticmethod
-    def of(scene: UsdStage, bodies: colliders.StageBodies) -> StageSurfaces:
+    @classmethod
+    def of(cls, scene: UsdStage, bodies: colliders.StageBodies) -> Self:
         """Return the surfaces of an open stage."""
-        return StageSurfaces(
+        return cls(
             scene.path,
             {str(prim.GetPath()): bodies.of(prim) for prim in scene.prims() if colliders.is_seen(scene, prim)},
         )

@@ -1,8 +1,6 @@
 """OpenUSD, the library, used by one asset at a time; layers as files; what is kept of a stage to write it back; and an
 open stage: its prims in order, and where they are in metres."""
 
-from __future__ import annotations
-
 import io
 import re
 import struct
@@ -15,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -215,10 +213,10 @@ class UsdStage:
     stage: Any
     path: Path
 
-    @staticmethod
-    def open(path: Path) -> UsdStage:
+    @classmethod
+    def open(cls, path: Path) -> Self:
         """Return the stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
-        scene = UsdStage(pxr.Usd.Stage.Open(str(path)), path)
+        scene = cls(pxr.Usd.Stage.Open(str(path)), path)
         if not np.isfinite(scene.metres) or scene.metres <= 0:
             raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
         return scene

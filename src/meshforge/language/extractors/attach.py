@@ -1,11 +1,9 @@
 """Attach: hulls in contact with others."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import product
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
@@ -33,8 +31,8 @@ class Attach(Leaf):
         return f"that touch {self.anchor.one(other=self.anchor == self.selected)}"
 
     @classmethod
-    def enumerate(cls, candidates: Candidates) -> Iterator[Attach]:
-        yield from (Attach(selected, anchor) for selected, anchor in product(candidates.bases, candidates.bases))
+    def enumerate(cls, candidates: Candidates) -> Iterator[Self]:
+        yield from (cls(selected, anchor) for selected, anchor in product(candidates.bases, candidates.bases))
 
     @property
     def cost(self) -> float:

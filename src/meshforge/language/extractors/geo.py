@@ -1,12 +1,10 @@
 """Geo: the hulls that reach farthest in a direction."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import product
 from math import dist
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
@@ -40,8 +38,8 @@ class Geo(Leaf):
         return f"that reach farthest along {self.direction}"
 
     @classmethod
-    def enumerate(cls, candidates: Candidates) -> Iterator[Geo]:
-        yield from (Geo(base, direction) for base, direction in product(candidates.bases, DIRECTIONS))
+    def enumerate(cls, candidates: Candidates) -> Iterator[Self]:
+        yield from (cls(base, direction) for base, direction in product(candidates.bases, DIRECTIONS))
 
     @property
     def cost(self) -> float:

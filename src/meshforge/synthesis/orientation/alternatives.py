@@ -50,7 +50,9 @@ def find_more_believable(
     if costs.count(supported, askew=True) - DIRECTIVE <= costs.least:
         return None
     orients = _rank(Directives(shown, others, task.frame.labels), landmarks)[:MAX_TRIED]
-    askew = bool(orients and costs.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
+    tried = [*shown, *others][:MAX_TURNED] if orients and costs.askew else []
+    # where it turns more than a few, meshes do not lie in its frame as they are
+    askew = sum(_turns(mesh, orients[0]) for mesh in tried) > (1 - NEARLY_ALL) * len(tried)
     most = costs.count(supported, askew) - DIRECTIVE
     if most <= costs.least:
         return None
@@ -85,11 +87,6 @@ class FrameCosts:
     def count(self, supported: Collection[str], askew: bool) -> float:
         """Return the cost where landmarks lie along some axes; askew: whether actions went by axes without meaning."""
         return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
-
-
-def _turns_many(meshes: Sequence[SymbolicMesh], orient: language.Orient) -> bool:
-    """Whether a directive turns more than a few of some meshes, so that they do not lie in its frame as they are."""
-    return sum(_turns(mesh, orient) for mesh in meshes) > (1 - NEARLY_ALL) * len(meshes)
 
 
 def _turns(mesh: SymbolicMesh, orient: language.Orient) -> bool:

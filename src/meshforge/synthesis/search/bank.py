@@ -223,7 +223,8 @@ class Completion:
     def _find_operand(self, goal: Goal, size: int) -> Term | None:
         self.goals += 1
         if size <= self._stored:
-            return _first_term_for(self._bank.level(size), goal)
+            level = self._bank.level(size)
+            return next(level.select_rows(rows_for(level, goal)), None)
         if (goal, size) not in self._known:
             self._known[goal, size] = self.find_first(goal, size)
         return self._known[goal, size]
@@ -247,10 +248,6 @@ def rows_for(level: Level, goal: Goal) -> int:
     """Return the rows of the terms of a level that meet a goal."""
     holding = level.columns.all_with(goal.need)
     return holding & level.columns.all_without(goal.avoid) if holding else 0
-
-
-def _first_term_for(level: Level, goal: Goal) -> Term | None:
-    return next(level.select_rows(rows_for(level, goal)), None)
 
 
 def half_terms_for(level: Level, goal: Goal, helpful: bool) -> Iterator[HalfTerm]:
