@@ -84,7 +84,7 @@ def measure(tell: Tell, quick: bool) -> Result:
 
 
 def _reply(page: Page, address: str, assets: list[str], label: str) -> list[float]:
-    edit = {"kind": "label-group", "label": label, "hulls": [{"asset": asset, "hull": HULL} for asset in assets]}
+    edit = {"kind": "label", "label": label, "hulls": {asset: [HULL] for asset in assets}}
     times: list[float] = page.evaluate(_REPLY, [address.partition("token=")[2], edit, 120_000])
     return times
 
