@@ -67,6 +67,10 @@ class _InnerPlanes:
         planes = planes_of(hull.vertices, hull.faces)
         self.middle, self.size = planes.middle, float(np.ptp(hull.vertices, axis=0).max())
         rows = np.column_stack([planes.normals, planes.offsets / self.size])
+        if len(planes.normals) < len(hull.faces):  # without needles they may enclose nothing: those of its box do
+            ends = (hull.vertices - self.middle) / self.size
+            box = np.column_stack([[*np.eye(3), *-np.eye(3)], [*ends.max(axis=0), *-ends.min(axis=0)]])
+            rows = np.concatenate([rows, box])
         _, first = np.unique(np.round(rows, _PLANE_DIGITS), axis=0, return_index=True)
         self.normals, self.offsets = rows[first, :3], rows[first, 3]
 
