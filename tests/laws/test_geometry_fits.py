@@ -65,7 +65,8 @@ def outside(points: Floats, shape: Box | Cylinder | Capsule | Sphere) -> float:
 def test_a_tight_shape_holds_its_points(
     points: Floats, fit: Callable[[Floats], Box | Cylinder | Capsule | Sphere]
 ) -> None:
-    assert outside(points, fit(points)) <= 1e-9 * float(np.ptp(points, axis=0).max())
+    rounding = np.spacing(np.abs(points).max())  # of points far from the origin it is more than their size allows
+    assert outside(points, fit(points)) <= max(1e-9 * float(np.ptp(points, axis=0).max()), 4 * rounding)
 
 
 @LAW
