@@ -69,7 +69,7 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
     assert "label all hulls" in studio.settled()["project"]["next"]["text"]
     with studio.page() as page:
         assert page.hello["relabelled"] is None
-        assert page.hello["project"]["carried"] is None
+        assert page.hello["project"]["propagation"] is None
         job = carry(studio, page)
         assert (job["state"], job["done"], job["total"]) == ("done", 4, 4)
         assert job["message"].startswith("15 labels on 3 assets; ")
@@ -82,9 +82,9 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert cards[FIRST]["confidence"] == [GIVEN] * 5
         others = [card["confidence"] for card in cards.values()][1:]
         assert all(top == GIVEN and min(legs) < 50 for top, *legs in others), "only tops have a name that says a label"
-        hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
-        assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
-        assert hello["project"]["carried"]["next"] in (SECOND, THIRD, "t3.obj")
+        hello = studio.until(lambda hello: hello["project"]["propagation"] is not None)
+        assert hello["project"]["propagation"] == {"unused": 0, "next": hello["project"]["propagation"]["next"]}
+        assert hello["project"]["propagation"]["next"] in (SECOND, THIRD, "t3.obj")
         after = labels(studio)
         assert ok(studio.post("/api/undo"))["message"] == "hulls labelled"
         assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
@@ -94,7 +94,7 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert labels(studio) == after
         studio.edit("label", hulls={SECOND: ["leg_a"]}, label="first")
         assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
-        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 1)
+        assert studio.until(lambda hello: (hello["project"]["propagation"] or {}).get("unused") == 1)
 
 
 def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -> None:
@@ -117,7 +117,7 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
     for _ in range(after + 1):
         ok(studio.post("/api/redo"))
     assert dict(project.labels(SECOND).labels) == said
-    assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 5)
+    assert studio.until(lambda hello: (hello["project"]["propagation"] or {}).get("unused") == 5)
 
 
 def _given(studio: Studio, asset: str) -> int:

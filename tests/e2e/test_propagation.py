@@ -86,8 +86,8 @@ def test_a_click_paints_look_alikes_and_labelling_all_at_once_sees_them(
         _outcome(person).wait_for()
         assert project.labels(FIRST).labels == {**legs, "top": Label("alpha")}
         person.sees("All that is there is used")
-        hello = studio.until(lambda hello: hello["project"]["carried"] is not None)
-        assert (hello["project"]["carried"]["unused"], hello["history"]["undoable"]) == (0, 3)
+        hello = studio.until(lambda hello: hello["project"]["propagation"] is not None)
+        assert (hello["project"]["propagation"]["unused"], hello["history"]["undoable"]) == (0, 3)
         found = {name: one.name for name, one in project.labels(SECOND).labels.items()}
         assert found == {"top": "alpha", **dict.fromkeys(LEGS, "beta")}
 
@@ -142,7 +142,7 @@ def _look_through(person: Hand, studio: Studio, project: Project) -> None:
         seen.append((asset, hull))
     person.press("Shift+N")
     assert _in_hand(person) not in seen, "what was said is sure"
-    studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 2)
+    studio.until(lambda hello: (hello["project"]["propagation"] or {}).get("unused") == 2)
     person.sees("2 labels not used yet")
 
 

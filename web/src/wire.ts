@@ -931,8 +931,8 @@ export interface Hello {
 /**
  * The project.
  *
- * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
- * of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
+ * rules: what is demonstrated, by rule; templates: hull templates that actions can name; propagation: the last one of
+ * labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
  * cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
  * kept, but not as part of the family.
  */
@@ -946,7 +946,7 @@ export interface ProjectView {
   rules: RuleLine[];
   answers: AnswerView[];
   templates: string[];
-  carried: PropagationState | null;
+  propagation: PropagationState | null;
   next: NextStep;
   new: NewAssetsView | null;
   problem: string | null;

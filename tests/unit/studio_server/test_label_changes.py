@@ -58,7 +58,7 @@ def cards(project: Project) -> list[Card]:
     return [Card(asset=asset, confidence=tuple(GIVEN if n in given[asset] else 60 for n in NAMES)) for asset in ASSETS]
 
 
-def carried(project: Project, history: History) -> PropagationState | None:
+def read_propagation(project: Project, history: History) -> PropagationState | None:
     return LabelChanges(history).propagation_state(cards(project))
 
 
@@ -99,13 +99,13 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
 
 def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    assert carried(project, history) is None
+    assert read_propagation(project, history) is None
     carry(project, history)
-    assert carried(project, history) == PropagationState(unused=0, next="t1.obj")
+    assert read_propagation(project, history) == PropagationState(unused=0, next="t1.obj")
 
     def unused_after(edit: Edit) -> int:
         make_edit(history, project, edit)
-        now = carried(project, history)
+        now = read_propagation(project, history)
         assert now
         return now.unused
 
@@ -116,12 +116,12 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(RenameLabel(old="leg", new="foot")) == 3
     assert unused_after(label("t1.obj", "crumb", None)) == 2
     history.undo()
-    assert carried(project, history) == PropagationState(unused=3, next="t1.obj")
+    assert read_propagation(project, history) == PropagationState(unused=3, next="t1.obj")
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history, "t2.obj")
-    assert carried(project, history) == PropagationState(unused=0, next="t2.obj")
+    assert read_propagation(project, history) == PropagationState(unused=0, next="t2.obj")
     history.undo()
-    assert carried(project, history) == PropagationState(unused=3, next="t1.obj")
+    assert read_propagation(project, history) == PropagationState(unused=3, next="t1.obj")
 
 
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
 
     project.label("propagate", write_block=keeping)
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
-    now = carried(project, history)
+    now = read_propagation(project, history)
     assert now and now.unused == 1
     history.undo()
     assert {name: one.name for name, one in project.labels("t1.obj").labels.items()} == {"crumb": "leg"}
@@ -166,11 +166,11 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     make_edit(history, project, label("t1.obj", "crumb", "leg"))
     for blob in (project.folder / ".meshforge/studio/history/blobs").glob("*/*"):
         blob.write_bytes(b"{")
-    found = carried(project, history)
+    found = read_propagation(project, history)
     assert found and found.next == "t1.obj"
     history = History.open(project.folder)
     make_edit(history, project, label("t1.obj", "crumb", "misc"))
-    assert carried(project, history) == PropagationState(unused=1, next="t1.obj")
+    assert read_propagation(project, history) == PropagationState(unused=1, next="t1.obj")
 
 
 MOVES = st.lists(

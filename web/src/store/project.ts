@@ -37,7 +37,7 @@ export const emptyProject: ProjectState = {
     rules: [],
     answers: [],
     templates: [],
-    carried: null,
+    propagation: null,
     new: null,
     next: { kind: "wait", text: "", asset: null, command: null, note: null },
     problem: null,

@@ -88,7 +88,7 @@ def build_project_view(
         rules=_rule_lines(project),
         answers=tuple(_list_feedback(project)),
         templates=project.template_names(),
-        carried=propagated,
+        propagation=propagated,
         next=next_step,
         new=new,
         problem=problem,

@@ -114,8 +114,8 @@ class OrientView(Wire):
 class ProjectView(Wire):
     """The project.
 
-    rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
-    of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
+    rules: what is demonstrated, by rule; templates: hull templates that actions can name; propagation: the last one of
+    labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
     cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
     kept, but not as part of the family.
     """
@@ -129,7 +129,7 @@ class ProjectView(Wire):
     rules: tuple[RuleLine, ...] = ()
     answers: tuple[AnswerView, ...] = ()
     templates: tuple[str, ...] = ()
-    carried: PropagationState | None = None
+    propagation: PropagationState | None = None
     next: NextStep
     new: NewAssetsView | None = None
     problem: str | None = None

@@ -64,7 +64,7 @@ function FromAll() {
 
 function LabelReady({ job }: { job: Job | null }) {
   const why = useProject(whyNotLabel);
-  const carried = useProject((state) => state.project.carried);
+  const propagation = useProject((state) => state.project.propagation);
   const there = useSourceTexts();
   const label = (
     <Button
@@ -76,19 +76,19 @@ function LabelReady({ job }: { job: Job | null }) {
     >
       <span>
         Label<span className="visually-hidden"> all hulls</span>
-        {carried && " again"}
+        {propagation && " again"}
       </span>
     </Button>
   );
   const lost = job?.lines.filter(({ status }) => status === "failed") ?? [];
-  const isPresent = job?.state !== "done" || (carried && !carried.unused);
+  const isPresent = job?.state !== "done" || (propagation && !propagation.unused);
   return (
     <SourceRow icon={Waypoints} title={ALL_TITLE} text={why ?? (there.join(", ") || "All that is there is used")} action={label}>
       {job && isPresent && <JobNote job={job} />}
       {job && isPresent && <JobLines lines={lost} />}
-      {carried?.next && (
-        <Button look="quiet" icon={ArrowRight} onClick={() => openAsset(carried.next)} tip="It helps most if you label it">
-          Label next: {shortName(carried.next)}
+      {propagation?.next && (
+        <Button look="quiet" icon={ArrowRight} onClick={() => openAsset(propagation.next)} tip="It helps most if you label it">
+          Label next: {shortName(propagation.next)}
         </Button>
       )}
     </SourceRow>
@@ -99,12 +99,12 @@ function LabelReady({ job }: { job: Job | null }) {
 function useSourceTexts(): string[] {
   const { files, names } = useLabelSources();
   const { given, assets } = labelProgress(useProject((state) => state.cards));
-  const carried = useProject((state) => state.project.carried);
-  const labels = carried ? carried.unused : given;
+  const propagation = useProject((state) => state.project.propagation);
+  const labels = propagation ? propagation.unused : given;
   return [
     files ? `labels files beside ${countText(files, "asset")}` : "",
     names ? `names of ${countText(names, "hull")}` : "",
-    labels ? (carried ? `${countText(labels, "label")} not used yet` : `${countText(labels, "label")} on ${countText(assets, "asset")}`) : "",
+    labels ? (propagation ? `${countText(labels, "label")} not used yet` : `${countText(labels, "label")} on ${countText(assets, "asset")}`) : "",
   ].filter(Boolean);
 }
 
