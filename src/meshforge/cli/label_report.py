@@ -125,12 +125,8 @@ def _print_tally(tally: Tally) -> None:
     columns = ("labels from", "sure", "likely", "unsure")
     typer.echo()
     print_table(columns, [*rows, ("no label", "", "", tally.unlabelled)], right=columns[1:])
-    if count := len(tally.contradictions):
-        named = [
-            f"{one.hull} of {one.asset} is {one.label}, {one.name!r} says {one.means}" for one in tally.contradictions
-        ]
-        what = "label contradicts a name" if count == 1 else "labels contradict names"
-        typer.echo(f"\n{count:,} {what}: {escape_name(join_names(named, _FEW_NAMES))}")
+    if found := tally.describe_contradictions():
+        typer.echo(f"\n{escape_name(found)}")
     typer.echo()
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import rendering
-from meshforge.common import MeshForgeError, UsageError, quote_path
+from meshforge.common import MeshForgeError, UsageError, join_names, quote_path
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
@@ -43,6 +43,14 @@ class Tally:
     doubtful: tuple[tuple[str, int], ...]
     unreadable: tuple[tuple[str, str], ...] = ()
     contradictions: tuple[NameContradiction, ...] = ()
+
+    def describe_contradictions(self) -> str:
+        """Return how many labels contradict a name, with the first three; nothing where none does."""
+        if not (found := self.contradictions):
+            return ""
+        named = [f"{one.hull} of {one.asset} is {one.label}, {one.name!r} says {one.means}" for one in found]
+        what = "1 label contradicts a name" if len(found) == 1 else f"{len(found):,} labels contradict names"
+        return f"{what}: {join_names(named, most=3)}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -166,10 +166,8 @@ def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
     yield f"{new}; {unsure or 'none'} unsure."
     shares = [f"{SOURCE_WORDS[one.source]} {one.sure + one.likely + one.unsure:,}" for one in tally.shares]
     yield f"All labels by source: {', '.join(shares)}."
-    if found := tally.contradictions:
-        named = [f"{one.hull} of {one.asset} is {one.label}, {one.name!r} says {one.means}" for one in found]
-        what = "1 label contradicts a name" if len(found) == 1 else f"{len(found):,} labels contradict names"
-        yield f"{what}: {join_names(named, most=3)}."
+    if found := tally.describe_contradictions():
+        yield f"{found}."
     for one, other in result.alike:
         yield f"{one} and {other} are on hulls that look alike: are they one part?"
     yield from (f"{note}." for note in result.notes)
