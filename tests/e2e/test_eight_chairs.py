@@ -51,7 +51,7 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, brow
         label_look_alikes(person, truth, WORDS)
         acts = person.actions - before
         studio.cards(lambda cards: all(set(card["confidence"]) == {GIVEN} for card in cards.values()))
-        assert {asset: labels_of(folder, asset) for asset in truth} == truth
+        studio.until(lambda _: {asset: labels_of(folder, asset) for asset in truth} == truth)  # files come after cards
         person.press("Escape", "Alt+2")
         expert = Expert(person, studio, source, truth, MEANT, folder)
         expert.open_asset(FIRST)
