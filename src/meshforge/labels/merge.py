@@ -73,9 +73,11 @@ def set_labels_of(
             given = {name: Label(label, confidence, source) if label else None for name, label in words.items()}
             current = symbolic.match_labels(store.labels(asset), hulls).labels
             labelled, outcome = merge_labels(asset, hulls, current, given, vocabulary)
-            if outcome.problems:
-                remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
-                raise ProjectError(outcome.problems[0], where=asset, remedy=remedy)
+            made = {label for label in words.values() if label and symbolic.is_class_name(label)} - {symbolic.NO_PART}
+            unknown = sorted(made.difference(store.words)) if made else []
+            if problem := next(iter(outcome.problems), f"no step made the class {unknown[0]!r}" if unknown else None):
+                remedy = f"The vocabulary is: {', '.join(store.words) or 'empty'}."
+                raise ProjectError(problem, where=asset, remedy=remedy)
             texts[asset] = store.labels_text(asset, hulls, labelled, vocabulary)
             outcomes.append(outcome)
         store.write_labels_files(texts)

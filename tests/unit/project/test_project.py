@@ -103,7 +103,7 @@ def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: 
 def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     project.set_vocabulary(["top"])
-    for labels in ({"top": "top", "topp": "top"}, {"top": "tap"}, {"nothing": None}):
+    for labels in ({"top": "top", "topp": "top"}, {"top": "tap"}, {"nothing": None}, {"top": "part_q"}):
         with pytest.raises(ProjectError):
             project.set_labels(FIRST, labels)
     assert not (project.folder / "labels").exists()
