@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from benchmark.assets.asset import Asset
+from benchmark.assets.decomposition import bounds
+from meshforge.checks.trials.place import TOLERANCE
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -15,3 +19,9 @@ class Case:
     mesh: SymbolicMesh
     asset: Asset
     before: SymbolicMesh
+
+    @property
+    def touching(self) -> float:
+        """How deep two things may be in each other without counting as such [m]."""
+        low, high = bounds(self.asset.parts)
+        return TOLERANCE * float(np.linalg.norm(high - low))

@@ -10,7 +10,6 @@ import numpy as np
 
 from benchmark.assets.decomposition import bounds
 from benchmark.criteria.case import Case
-from benchmark.criteria.scene import tolerance
 from script.samples.part import Part
 
 
@@ -74,6 +73,6 @@ def _reach(part: Part, axis: int, side: float) -> float:
 
 
 def _touches(case: Case, part: Part, label: str) -> bool:
-    slack = tolerance(case.asset)
+    slack = case.touching
     others = (other for other in case.asset.parts if other is not part and _is_called(other, label))
     return any(float(part.solid.min_gap(other.solid, 2 * slack)) <= slack for other in others)

@@ -10,9 +10,8 @@ from manifold3d import Manifold
 from scipy.optimize import linear_sum_assignment
 
 from benchmark.criteria.case import Case
-from benchmark.criteria.contact import mm
-from benchmark.criteria.scene import describe_hull
 from benchmark.criteria.solid import near, solid
+from meshforge.checks.trials.place import describe_hull, mm
 from meshforge.geometry import close_pairs
 from meshforge.symbolic import Hull
 from script.samples.part import Part

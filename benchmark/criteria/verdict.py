@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
 from typing import Any
 
+from benchmark.criteria import parts, physical, structural
 from benchmark.criteria.case import Case
 
-CRITERIA = ("stands", "supports", "contains", "graspable", "passes", "swings", "structural", "parts")
-"""Each a module with `failure(case, **fields)`: why the case does not do, None where it does."""
+_PHYSICAL = (
+    physical.stands,
+    physical.supports,
+    physical.contains,
+    physical.graspable,
+    physical.passes,
+    physical.swings,
+)
+_FAILURES: Mapping[str, Callable[..., str | None]] = {
+    **{kind.__name__: kind for kind in _PHYSICAL},
+    "structural": structural.failure,
+    "parts": parts.failure,
+}
+CRITERIA = tuple(_FAILURES)
+"""Each says why a case does not do, None where it does."""
 
 
 def judge(case: Case, checks: Sequence[Mapping[str, Any]]) -> str | None:
@@ -18,8 +31,7 @@ def judge(case: Case, checks: Sequence[Mapping[str, Any]]) -> str | None:
         fields = dict(check)
         kind = fields.pop("kind")
         assert kind in CRITERIA, f"there is no criterion {kind!r}"
-        failure: Callable[..., str | None] = import_module(f"benchmark.criteria.{kind}").failure
-        why = failure(case, **fields)
+        why = _FAILURES[kind](case, **fields)
         if why:
             return f"{kind}: {why}"
     return None

@@ -21,6 +21,10 @@ from meshforge.batch.discovery import expand as expand
 from meshforge.batch.discovery import find_assets_in as find_assets_in
 from meshforge.batch.edit import apply as apply
 from meshforge.batch.execution import execute as execute
+from meshforge.batch.goals import GOAL_EXECUTION as GOAL_EXECUTION
+from meshforge.batch.goals import AssetGoals as AssetGoals
+from meshforge.batch.goals import GoalTask as GoalTask
+from meshforge.batch.goals import try_goals as try_goals
 from meshforge.batch.jobs import APPLY_DEFAULTS as APPLY_DEFAULTS
 from meshforge.batch.jobs import ApplyOptions as ApplyOptions
 from meshforge.batch.jobs import ApplyTask as ApplyTask

@@ -99,6 +99,14 @@ def _fill_hull(grid: Grid, shape: Shape, mask: Mask) -> None:
     mask[box] |= inside.reshape(len(xs), len(ys), len(heights))
 
 
+def heights_at(shape: Shape, places: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest height (n,) of a shape at places (n, 2) [m]; where it is not, low is above."""
+    hull = shape.tessellate()
+    planes = planes_of(hull.vertices, hull.faces)
+    bottom, top = _interval(places - planes.middle[:2], planes.normals, planes.offsets)
+    return bottom + planes.middle[2], top + planes.middle[2]
+
+
 def _interval(flat: Floats, normals: Floats, offsets: Floats) -> tuple[Floats, Floats]:
     """The lowest and the highest height (n,) of a hull at places (n, 2), from its middle; none where low is above."""
     room = offsets - flat @ normals[:, :2].T

@@ -32,6 +32,7 @@ COMMANDS = {
     "synthesize": "Learn the smallest program that does on every demonstrated asset what was shown there",
     "review": "Say how sure each result is, and ask what signs a family off",
     "apply": "Run a program on assets",
+    "goal": "Try what assets must do, such as to stand or to be gripped, before and after the program",
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
     "select": "List the hulls that an extractor selects, in the frame the asset comes in",

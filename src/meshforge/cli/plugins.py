@@ -5,6 +5,7 @@ from typing import Any
 import typer
 
 from meshforge.checks import CHECKS
+from meshforge.checks.goals.registry import GOALS
 from meshforge.cli.console import print_table
 from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json
@@ -19,6 +20,7 @@ _REGISTRIES: dict[PluginKind, Registry[Any]] = {
     "actions": ACTIONS,
     "labelers": LABELERS,
     "checks": CHECKS,
+    "goals": GOALS,
 }
 
 

@@ -11,7 +11,7 @@ from typing import Any, Generic, Literal, TypeVar, get_args
 
 from meshforge.common.messages import MeshForgeError, PluginError
 
-PluginKind = Literal["formats", "extractors", "actions", "labelers", "checks"]
+PluginKind = Literal["formats", "extractors", "actions", "labelers", "checks", "goals"]
 PLUGIN_KINDS: tuple[PluginKind, ...] = get_args(PluginKind)
 _WORDS = {
     "formats": "format .",
@@ -19,6 +19,7 @@ _WORDS = {
     "actions": "action ",
     "labelers": "labeller ",
     "checks": "check ",
+    "goals": "goal ",
 }
 _GROUP = "meshforge."
 

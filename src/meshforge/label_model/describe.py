@@ -10,6 +10,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model import surroundings
 from meshforge.label_model.surroundings import WholeShape, axes_along, whole_of
 from meshforge.label_model.ties import EQUAL, first_greatest, greatest_first, share_ranks
+from meshforge.language import Orient, find_rotation
 from meshforge.symbolic import SymbolicMesh
 
 _SAME_SIDE = np.cos(np.radians(4.0))  # faces of the whole that turn by less are one side of it
@@ -74,6 +75,12 @@ def rotation_to_z(up: Floats) -> Floats:
     cross = np.array([[0.0, 0.0, -x], [0.0, 0.0, -y], [x, y, 0.0]])
     turn: Floats = np.eye(3) + cross + cross @ cross / (1 + cosine)
     return turn
+
+
+def find_upright_rotation(mesh: SymbolicMesh, orient: Orient | None) -> Floats:
+    """Return the rotation (3, 3) by which a mesh stands: an orientation, then Z up. Raises ProgramError."""
+    turn = find_rotation(mesh, orient) if orient else np.eye(3)
+    return turn if orient and orient.names_z else rotation_to_z(up_in_file(mesh)) @ turn
 
 
 def _flat_sides(mesh: SymbolicMesh) -> Floats:

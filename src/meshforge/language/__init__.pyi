@@ -25,6 +25,8 @@ from meshforge.language.arguments import LengthArgument as LengthArgument
 from meshforge.language.arguments import Operation as Operation
 from meshforge.language.arguments import OptionArgument as OptionArgument
 from meshforge.language.arguments import PrimitiveOrFileArgument as PrimitiveOrFileArgument
+from meshforge.language.arguments import QuantityArgument as QuantityArgument
+from meshforge.language.arguments import Share as Share
 from meshforge.language.arguments import ShareArgument as ShareArgument
 from meshforge.language.arguments import TextArgument as TextArgument
 from meshforge.language.arguments import WordArgument as WordArgument
@@ -35,6 +37,7 @@ from meshforge.language.extractors.base import BaseExtractor as BaseExtractor
 from meshforge.language.extractors.base import Candidates as Candidates
 from meshforge.language.extractors.base import Diff as Diff
 from meshforge.language.extractors.base import Extractor as Extractor
+from meshforge.language.extractors.base import ExtractorArgument as ExtractorArgument
 from meshforge.language.extractors.base import Intersect as Intersect
 from meshforge.language.extractors.base import Leaf as Leaf
 from meshforge.language.extractors.base import Union as Union
@@ -60,6 +63,7 @@ from meshforge.language.orient import find_rotation as find_rotation
 from meshforge.language.orient import orient_mesh as orient_mesh
 from meshforge.language.orient import rename_in_orient as rename_in_orient
 from meshforge.language.parse import parse_extractor as parse_extractor
+from meshforge.language.parse import parse_operation as parse_operation
 from meshforge.language.print import Comments as Comments
 from meshforge.language.print import Rule as Rule
 from meshforge.language.print import explain as explain
@@ -75,6 +79,7 @@ from meshforge.language.replay import make_anew as make_anew
 from meshforge.language.replay import to_canonical_frame as to_canonical_frame
 from meshforge.language.registry import ACTIONS as ACTIONS
 from meshforge.language.registry import EXTRACTORS as EXTRACTORS
+from meshforge.language.registry import OperationRegistry as OperationRegistry
 from meshforge.language.registry import make_operation as make_operation
 from meshforge.language.text import list_operators as list_operators
 from meshforge.language.words import DIRECTIONS as DIRECTIONS

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, NoReturn, cast, get_args
 from meshforge.common import Plugin, PluginError, ProgramError
 from meshforge.language.words import DIRECTIONS, check_direction, check_label, show_label
 
-TokenKind = Literal["word", "text", "number", "direction"]
+TokenKind = Literal["word", "text", "number", "direction", "quantity"]
 Primitive = Literal["box", "cylinder", "capsule", "sphere"]
 PRIMITIVES: tuple[Primitive, ...] = get_args(Primitive)
 
@@ -42,7 +42,7 @@ class ArgumentType(ABC):
     def check(self, kind: type[Operation], name: str, value: Any) -> None:
         """Raise ProgramError for a value that may not stand in the field `name` of an operation."""
         if not self.fits(value):
-            problem = f"{kind.__name__} takes {self.wants} as its {name}, not {value!r}"
+            problem = f"{kind.word()} takes {self.wants} as its {name}, not {value!r}"
             raise ProgramError(problem, remedy=f"Write {kind.usage()}.")
 
     def show(self, value: Any) -> str:
@@ -204,6 +204,55 @@ class LabelArgument(ArgumentType):
         return labels[value]
 
 
+UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "g": 0.001, "kg": 1.0, "N": 1.0, "s": 1.0, "deg": 1.0}
+"""What a unit is in metres, kilograms, newtons, seconds or degrees."""
+_LIKE = {"mm": "m", "cm": "m", "g": "kg"}
+_WANTS = {"m": "a length above 0", "deg": "an angle above 0"}
+
+
+@dataclass(frozen=True, order=True, slots=True)
+class Share:
+    """A share of something that is measured, such as of an opening, above 0; text: `80%`."""
+
+    value: float
+
+    def __str__(self) -> str:
+        return f"{show_number(round(100 * self.value, 10))}%"
+
+
+class QuantityArgument(ArgumentType):
+    """A number above 0 with a unit, of which a bare one has that of the argument; or, where the argument is a share of
+    something by default, a `Share`. Values are floats in the argument's unit.
+
+    unit: m or deg; of: what a share is of, empty for no shares.
+    """
+
+    symbol = "QUANTITY"
+
+    def __init__(self, unit: Literal["m", "deg"], of: str = "") -> None:
+        self._unit, self._of = unit, of
+        self.usage = {"m": "length", "deg": "angle"}[unit] + ("|share%" if of else "")
+        example = {"m": "80 mm", "deg": "90 deg"}[unit]
+        self.wants = f"{_WANTS[unit]} such as {example}{f', or a share of {of} such as 80%' if of else ''}"
+
+    def read(self, kind: TokenKind, text: str) -> float | Share | None:
+        if kind != "quantity":
+            return None
+        number = text.rstrip("%" + "".join(UNITS))
+        unit = text[len(number) :]
+        value = float(number) * (0.01 if unit == "%" else UNITS[unit or self._unit])
+        suits = bool(self._of) if unit == "%" else _LIKE.get(unit, unit or self._unit) == self._unit
+        found = Share(value) if unit == "%" else value
+        return found if suits and self.fits(found) else None
+
+    def fits(self, value: Any) -> bool:
+        number = value.value if isinstance(value, Share) and self._of else value
+        return isinstance(number, int | float) and math.isfinite(number) and number > 0
+
+    def show(self, value: Any) -> str:
+        return str(value) if isinstance(value, Share) else show_number(value)
+
+
 class OptionArgument(ArgumentType):
     """An option with a value: `word = value`."""
 
@@ -229,6 +278,13 @@ class Operation:
     __slots__ = ()
     owner: ClassVar[Plugin | None] = None
     """The plug-in that the class comes from, None for a built-in one."""
+    planned: ClassVar[tuple[str, ...]] = ()
+    """Words of options in the language which this version does not run."""
+
+    @classmethod
+    def word(cls) -> str:
+        """Return the word for it in a text: the name of the class."""
+        return cls.__name__
 
     def __post_init__(self) -> None:
         for name, argument in self.arguments().items():
@@ -270,7 +326,7 @@ class Operation:
         for k, argument in enumerate(cls.arguments().values()):
             text = f"{', ' if k else ''}{argument.usage}"
             parts += text if k < cls.min_arguments() else f"[{text}]"
-        return f"{cls.__name__}({parts})" if parts else cls.__name__
+        return f"{cls.word()}({parts})" if parts else cls.word()
 
     @classmethod
     def summary(cls) -> str:
@@ -284,7 +340,7 @@ class Operation:
 
     def __str__(self) -> str:
         shown = [self.arguments()[name].show(value) for name, value in self.values().items()]
-        return f"{type(self).__name__}({', '.join(shown)})" if shown else type(self).__name__
+        return f"{self.word()}({', '.join(shown)})" if shown else self.word()
 
     def _leaves_out(self, name: str, value: Any) -> bool:
         return name in self.options() and value == self.options()[name]

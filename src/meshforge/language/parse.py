@@ -7,15 +7,22 @@ from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from meshforge.common import PluginError, ProgramError
 from meshforge.language import arguments
-from meshforge.language.actions.base import Action, ActionArgument
-from meshforge.language.extractors.base import SET_OPERATORS, BaseArgument, BaseExtractor, Extractor, Leaf
+from meshforge.language.actions.base import ActionArgument
+from meshforge.language.extractors.base import (
+    SET_OPERATORS,
+    BaseArgument,
+    BaseExtractor,
+    Extractor,
+    ExtractorArgument,
+    Leaf,
+)
 from meshforge.language.orient import LandmarkPair, Orient
 from meshforge.language.print import CommentLines, Comments, Rule
-from meshforge.language.registry import ACTIONS, EXTRACTORS, make_operation
+from meshforge.language.registry import ACTIONS, EXTRACTORS, OperationRegistry, make_operation
 from meshforge.language.text import (
     Node,
     ProgramText,
@@ -35,12 +42,14 @@ from meshforge.language.words import Direction, check_direction, check_threshold
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
 
+AnOperation = TypeVar("AnOperation", bound=arguments.Operation)
 _SET_OPERATORS = {kind.__name__.lower(): kind for kind in SET_OPERATORS}
 _TOKEN_KINDS: dict[str, arguments.TokenKind] = {
     "NAME": "word",
     "STRING": "text",
     "NUMBER": "number",
     "DIRECTION": "direction",
+    "QUANTITY": "quantity",
 }
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
@@ -49,6 +58,21 @@ def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """Return the extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
     return build_extractor(TreeReader(source), subtrees_of(parse_tree(source, "only_extractor"))[0])
+
+
+def parse_operation(
+    text: str, registry: OperationRegistry[AnOperation], start: str, name: str, labels: tuple[str, ...] = ()
+) -> AnOperation:
+    """Return the operation in a text, by a rule of the grammar; labels: that it may use, any where there are none.
+
+    Raises ProgramError at `name:line:column`.
+    """
+    source = ProgramText(text.strip(), name)
+    word = source.piece_at(0)
+    if word not in registry:
+        raise _unknown_operation(source, 0, registry)
+    (tree,) = subtrees_of(parse_tree(source, start))
+    return build_operation(TreeReader(source, labels), tree, registry)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -68,13 +92,13 @@ def _grammar(kinds: tuple[type[Leaf], ...]) -> _Grammar:
     for k, kind in enumerate(kinds):
         rules[issubclass(kind, BaseExtractor)].append(f"leaf_{k}")
         words[f"LEAF_{k}"] = text_of_leaf(kind.__name__)
-        lines += [f"leaf_{k}: LEAF_{k} {_arguments_rule(kind)}", rf"LEAF_{k}: /{kind.__name__}\b/"]
+        lines += [f"leaf_{k}: LEAF_{k} {_arguments_rule(kind)}", rf"LEAF_{k}.1: /{kind.__name__}\b/"]
     lines += [f"_base: {' | '.join(rules[True])}", f"_leaf: {' | '.join(rules[False])}"]
     text = Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8")
     parser = Lark(
         "\n".join([text, *lines, ""]),
         parser="lalr",
-        start=["program", "only_extractor"],
+        start=["program", "only_extractor", "only_goal"],
         propagate_positions=True,
         maybe_placeholders=True,
     )
@@ -163,7 +187,11 @@ def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines
 def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
     """Return the rule of a `rule` node."""
     extractor, action, *label = subtrees_of(tree)
-    parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
+    parts = (
+        build_extractor(text, extractor),
+        build_operation(text, action, ACTIONS),
+        text.read_label(label[0]) if label else None,
+    )
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
@@ -256,13 +284,14 @@ def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
     return float(token)
 
 
-def build_action(text: TreeReader, tree: Node) -> Action:
-    """Return the action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
+def build_operation(text: TreeReader, tree: Node, registry: OperationRegistry[AnOperation]) -> AnOperation:
+    """Return the operation of an `action` or a `goal` node. Raises ProgramError at its name or at the argument that
+    does not fit."""
     (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
-    kind = text.locate_errors(name, lambda: ACTIONS.get(name))
+    kind = text.locate_errors(name, lambda: registry.get(name))
     if kind is None:
-        raise _unknown_action(text, name)
+        raise _unknown_operation(text.source, start_of(name), registry)
     _refuse_planned(text, kind, parts)
     takes, needed = kind.arguments(), kind.min_arguments()
     if len(parts) < needed:
@@ -278,19 +307,19 @@ def build_action(text: TreeReader, tree: Node) -> Action:
     return made
 
 
-def _refuse_planned(text: TreeReader, kind: type[Action], parts: Iterable[Node | Token]) -> None:
+def _refuse_planned(text: TreeReader, kind: type[arguments.Operation], parts: Iterable[Node | Token]) -> None:
     """Raise ProgramError for an option of the language that this version does not run."""
     for part in parts:
         word = text.source.piece_at(start_of(part))
         if word in kind.planned:
-            problem = f"this version does not run the option {quote_code(word)} of {kind.__name__}"
+            problem = f"this version does not run the option {quote_code(word)} of {kind.word()}"
             raise text.error_at(part, problem, "Leave it out.")
 
 
 def _build_option(
-    text: TreeReader, kind: type[Action], given: Mapping[str, Any], part: Node | Token
+    text: TreeReader, kind: type[arguments.Operation], given: Mapping[str, Any], part: Node | Token
 ) -> tuple[str, Any]:
-    """The field and the value of an argument that may be left out. Raises ProgramError for one that the action does
+    """The field and the value of an argument that may be left out. Raises ProgramError for one that the operation does
     not take, takes once only, or takes in another form."""
     named = None if isinstance(part, str) or part.data != "option" else part
     is_named, (word, value) = named is not None, named.children if named else (_bare_token(part), part)
@@ -308,37 +337,40 @@ def _build_option(
             return field, found
         taken = argument if found is not None else taken
     if taken:
-        several = f"{kind.__name__} takes one of {arguments.join_alternatives(taken.choices)} only"
+        several = f"{kind.word()} takes one of {arguments.join_alternatives(taken.choices)} only"
         problem = several if len(taken.choices) > 1 else f"{word} is given twice"
         raise text.error_at(part, problem, "Leave one of them out.")
     raise _unknown_option(text, kind, part, [argument for _, argument in takes])
 
 
 def _unknown_option(
-    text: TreeReader, kind: type[Action], part: Node | Token, takes: Sequence[arguments.ArgumentType]
+    text: TreeReader, kind: type[arguments.Operation], part: Node | Token, takes: Sequence[arguments.ArgumentType]
 ) -> ProgramError:
     thing = quote_code(text.source.piece_at(start_of(part)))
     if not takes:
-        return text.error_at(part, f"{kind.__name__} takes no further argument, not {thing}", f"Write {kind.usage()}.")
+        return text.error_at(part, f"{kind.word()} takes no further argument, not {thing}", f"Write {kind.usage()}.")
     words = [word for argument in takes for word in argument.choices or (argument.usage,)]
     like = likely_word(thing.strip("`"), words)
     remedy = f"{f'Did you mean {like}? ' if like else ''}Write {kind.usage()}."
-    return text.error_at(part, f"{kind.__name__} takes {arguments.join_alternatives(words)} here, not {thing}", remedy)
+    return text.error_at(part, f"{kind.word()} takes {arguments.join_alternatives(words)} here, not {thing}", remedy)
 
 
-def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
-    known = f"Actions are {arguments.join_alternatives(ACTIONS)}."
-    if name in list_operators():
-        return text.error_at(name, f"{name} selects hulls, it is no action", known)
-    like = likely_word(name, ACTIONS)
-    return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
+def _unknown_operation(source: ProgramText, offset: int, registry: OperationRegistry[Any]) -> ProgramError:
+    word, kind = source.piece_at(offset), registry.kind.removesuffix("s")
+    known = f"{registry.kind.capitalize()} are {arguments.join_alternatives(registry)}."
+    if word in list_operators():
+        return source.error_at(offset, f"{word} selects hulls, it is no {kind}", known)
+    like = likely_word(word, registry)
+    return source.error_at(
+        offset, f"unknown {kind} {quote_code(word)}", f"Did you mean {like}? {known}" if like else known
+    )
 
 
 def _build_argument(
     text: TreeReader, kind: type[arguments.Operation], argument: arguments.ArgumentType, given: Node | Token
 ) -> Any:
     if isinstance(argument, ActionArgument) and not isinstance(given, str):
-        return build_action(text, given)
+        return build_operation(text, given, ACTIONS)
     value = _read_argument(text, argument, given)
     if value is None:
         raise _misfit_error(text, kind, argument, given)
@@ -346,10 +378,16 @@ def _build_argument(
 
 
 def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: Node | Token) -> Any | None:
+    if isinstance(_value_of(argument), ExtractorArgument) and not isinstance(given, str) and given.data != "option":
+        return build_extractor(text, given)
     token = _bare_token(given)
-    if token is None:
+    if token is None or token.type not in _TOKEN_KINDS:
         return None
     return argument.read(_TOKEN_KINDS[token.type], text.unquote(token) if token.type == "STRING" else str(token))
+
+
+def _value_of(argument: arguments.ArgumentType) -> arguments.ArgumentType:
+    return argument.value if isinstance(argument, arguments.OptionArgument) else argument
 
 
 def _bare_token(given: Node | Token) -> Token | None:
@@ -371,4 +409,4 @@ def _misfit_error(
         remedy = f"Did you mean {like}? {remedy}"
     elif isinstance(argument, arguments.FileArgument) and "\\" in thing:
         remedy = "Write / between the folders of a path."
-    return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)
+    return text.error_at(given, f"{kind.word()} takes {argument.wants} here, not {quote_code(thing)}", remedy)

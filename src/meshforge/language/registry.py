@@ -30,7 +30,7 @@ class OperationRegistry(Registry[type[T]]):
     """
 
     def __init__(self, kind: PluginKind, base: type[T], built_in: Iterable[type[T]], missing: type[T]) -> None:
-        super().__init__(kind, {one.__name__: one for one in built_in}, self._adopt_kind, RESERVED)
+        super().__init__(kind, {one.word(): one for one in built_in}, self._adopt_kind, RESERVED)
         self._base, self.missing = base, missing
 
     def require(self, name: str) -> type[T]:
@@ -57,8 +57,8 @@ class OperationRegistry(Registry[type[T]]):
             return f"it has no method {lacking[0]}"
         if not is_dataclass(kind) or not getattr(kind, "__dataclass_params__").frozen:  # noqa: B009 (as above)
             return "it is no frozen dataclass"
-        if kind.__name__ != name or not _WORD.fullmatch(name):
-            return f"its class is called {kind.__name__}; both names must be the same word"
+        if kind.word() != name or not _WORD.fullmatch(name):
+            return f"its class is called {kind.word()}; both names must be the same word"
         bare = [one.name for one in fields(kind) if not isinstance(one.metadata.get("argument"), ArgumentType)]
         return f'its field {bare[0]} lacks metadata={{"argument": ...}}, the kind of argument' if bare else None
 

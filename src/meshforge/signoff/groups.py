@@ -9,8 +9,7 @@ import numpy as np
 
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats
-from meshforge.label_model.describe import find_up, rotation_to_z, up_in_file
-from meshforge.language import Orient, find_rotation
+from meshforge.label_model.describe import find_up, find_upright_rotation
 from meshforge.signoff.assessment import LEAST, ReviewState
 from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
 from meshforge.signoff.question import (
@@ -23,7 +22,6 @@ from meshforge.signoff.question import (
     identify,
     price_group,
 )
-from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import OrientationSuggestion
 
 MOST_HULLS = 24
@@ -189,7 +187,7 @@ def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> s
         if name in state.excluded or not any(hull.label for hull in mesh.hulls):
             continue
         try:
-            before, after = (_show_upright(mesh, orient) for orient in (state.frame.orient, suggested.orient))
+            before, after = (find_upright_rotation(mesh, orient) for orient in (state.frame.orient, suggested.orient))
         except MeshForgeError:
             return None
         turn = _to_degrees(float(np.sum(before * after) - 1) / 2)
@@ -201,12 +199,6 @@ def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> s
             turned[name] = turn
     names = sorted([name for name in suggested.differs_on if name in turned] or turned, key=turned.__getitem__)
     return names[len(names) // 2] if len(turned) > leaning else None
-
-
-def _show_upright(mesh: SymbolicMesh, orient: Orient | None) -> Floats:
-    """The rotation (3, 3) that shows a mesh: by an orientation, then so that Z points up. Raises ProgramError."""
-    turn = find_rotation(mesh, orient) if orient else np.eye(3)
-    return turn if orient and orient.names_z else rotation_to_z(up_in_file(mesh)) @ turn
 
 
 def _angle(a: Floats, b: Floats) -> float:

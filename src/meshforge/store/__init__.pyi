@@ -45,6 +45,7 @@ from meshforge.store.program import parse_action_text as parse_action_text
 from meshforge.store.settings import Settings as Settings
 from meshforge.store.settings import VlmSettings as VlmSettings
 from meshforge.store.settings import add_assets as add_assets
+from meshforge.store.settings import change_goal as change_goal
 from meshforge.store.settings import create_folder as create_folder
 from meshforge.store.settings import edit_settings as edit_settings
 from meshforge.store.settings import find_assets as find_assets

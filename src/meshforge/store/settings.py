@@ -81,7 +81,8 @@ class Settings(BaseModel):
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
     left_out, removed: ids of assets that are not of the family, as earlier versions noted them here; urdf_capsules:
-    whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules may use.
+    whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules may use; goals:
+    what assets must do, by name.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -98,6 +99,7 @@ class Settings(BaseModel):
     removed: tuple[str, ...] = ()
     urdf_capsules: bool = False
     extractors: tuple[str, ...] = ()
+    goals: dict[str, str] = {}
 
 
 def read_settings(folder: Path) -> Settings:
@@ -143,6 +145,12 @@ def change_setting(folder: Path, key: str, value: TomlValue) -> None:
     edited = edit_settings(folder, {key: value})
     if edited != _read_text(path):
         write_atomically(path, edited)
+
+
+def change_goal(folder: Path, name: str, text: str | None) -> None:
+    """Keep what assets must do in the table [goals], or remove it by None; the caller holds the lock."""
+    path = folder / batch.SETTINGS
+    write_atomically(path, set_value(_read_text(path), name, text, table="goals"))
 
 
 def edit_settings(folder: Path, values: Mapping[str, TomlValue | None]) -> str:

@@ -19,8 +19,6 @@ class Action(Operation, ABC):
     __slots__ = ()
     by_body: ClassVar[bool] = False
     """Whether it acts on each body's hulls separately, since what it makes is one part."""
-    planned: ClassVar[tuple[str, ...]] = ()
-    """Options that the language has, and that this version does not run."""
     key: ClassVar[str] = ""
     """The key that begins it in the studio, as `M` or `Shift+A`; without one it is begun by its button alone."""
     icon: ClassVar[ActionIcon] = "shapes"

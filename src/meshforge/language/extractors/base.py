@@ -151,7 +151,21 @@ class BaseArgument(ArgumentType):
     def check(self, kind: type[Any], name: str, value: Any) -> None:
         if not self.fits(value):
             remedy = "Combine selections with Union, Intersect and Diff instead of nesting them."
-            raise ProgramError(f"{kind.__name__} takes {self.wants}, not {value!r}", remedy=remedy)
+            raise ProgramError(f"{kind.word()} takes {self.wants}, not {value!r}", remedy=remedy)
+
+
+class ExtractorArgument(ArgumentType):
+    """Any extractor; the parser reads it, as above."""
+
+    symbol = "_extractor"
+    usage = "extractor"
+    wants = "an extractor such as Is(label)"
+
+    def read(self, kind: TokenKind, text: str) -> None:
+        return None
+
+    def fits(self, value: Any) -> bool:
+        return isinstance(value, Extractor)
 
 
 @dataclass(frozen=True, slots=True)

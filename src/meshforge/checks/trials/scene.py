@@ -1,6 +1,4 @@
-"""MuJoCo scenes of an edited mesh: its hulls as geoms where they are, and objects that are tried on it."""
-
-from __future__ import annotations
+"""MuJoCo scenes of hulls where they are, Z up, and objects that are tried on them."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -8,37 +6,22 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from benchmark.assets.asset import Asset, Site
-from benchmark.assets.decomposition import bounds
+from meshforge.checks.trials.place import describe_hull
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, inertia, spans_volume
 from meshforge.symbolic import Hull
 
-TOLERANCE = 0.002
-"""What counts as touching, of the diagonal of the asset's parts."""
 FRICTION = 0.6
 _TYPES = mujoco.mjtGeom
 _ROUND = (Capsule, Cylinder, Ellipsoid, Sphere)
 
 
-def tolerance(asset: Asset) -> float:
-    """How deep two things may be in each other without counting as such [m]."""
-    low, high = bounds(asset.parts)
-    return TOLERANCE * float(np.linalg.norm(high - low))
-
-
-def axes_of(site: Site) -> Floats:
-    """The axes of a site as the columns of a rotation (3, 3)."""
-    x, y, _ = np.asarray(site.axes, dtype=np.float64)
-    return np.stack([x, y, np.cross(x, y)], axis=1)
-
-
 def step_for(size: float) -> float:
-    """The time step [s] at which things of that half extent [m] do not tunnel and are calm."""
+    """Return the time step [s] at which things of that half extent [m] do not tunnel and are calm."""
     return float(np.clip(0.02 * np.sqrt(size), 0.0005, 0.002))
 
 
 def blank(step: float = 0.002, gravity: float = 9.81, give: float = 0.0) -> Any:
-    """An empty scene; step [s], gravity [m/s^2]; give: how slowly contacts resist [s], as fast as can be by default."""
+    """Return an empty scene; step [s], gravity [m/s^2]; give: how slowly contacts resist [s], by default at once."""
     spec = mujoco.MjSpec()
     spec.memory = 1 << 25
     spec.compiler.balanceinertia = True
@@ -70,7 +53,8 @@ def add_hulls(spec: Any, body: Any, hulls: Iterable[Hull], object_side: bool = F
 
 
 def add_shape(spec: Any, body: Any, name: str, shape: Shape, object_side: bool = True, **fields: Any) -> Any:
-    """Add a shape to a body as a geom; objects touch hulls, not each other. None where the shape has no volume."""
+    """Add a shape to a body as a geom, and return that; objects touch hulls, not each other. None where the shape has
+    no volume."""
     fields |= {"contype": int(object_side), "conaffinity": int(not object_side)}
     if shape.is_primitive:
         return _primitive(body, name, shape, fields)
@@ -100,7 +84,7 @@ def _primitive(body: Any, name: str, shape: Any, fields: dict[str, Any]) -> Any:
 
 
 def add_object(spec: Any, name: str, shape: Shape) -> Any:
-    """Add a free body of 0.1 kg of that shape, which is given about the origin, at the origin."""
+    """Add a free body of 0.1 kg of that shape, which is given about the origin, at the origin; return it."""
     body = spec.worldbody.add_body(name=name)
     body.add_freejoint(name=name)
     weigh(body, [shape], 0.1)
@@ -117,8 +101,3 @@ def place(model: Any, data: Any, name: str, at: Floats, rotation: Floats | None 
     begin = model.joint(name).qposadr[0]
     turn = Pose.identity() if rotation is None else Pose(rotation, np.zeros(3))
     data.qpos[begin : begin + 7] = [*at, *turn.to_quaternion()]
-
-
-def describe_hull(hull: Hull) -> str:
-    """A hull in words: also the name of its geom."""
-    return f"{hull.name} ({hull.label or 'no label'})"

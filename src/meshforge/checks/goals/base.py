@@ -1,0 +1,214 @@
+"""What a goal is, the asset that it is tried on, and what comes of that."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Literal, NoReturn, Self
+
+import numpy as np
+
+from meshforge.checks.trials.place import TOLERANCE, Failure, Place
+from meshforge.common import MeshForgeError, Plugin, ProgramError, blame, describe_error
+from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
+from meshforge.label_model.describe import find_upright_rotation
+from meshforge.language import EXTREMITY, Extractor, Operation, Program, Replay, labels_of, select_mask
+from meshforge.language.arguments import MissingOperation
+from meshforge.language.orient import square_up_angle
+from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
+
+LEAST_SIZE, MOST_SIZE = 0.005, 50.0
+"""Diagonals of assets on which goals are tried [m]: gravity and grippers mean something there."""
+
+GoalOutcome = Literal["passed", "failed", "untried", "broken"]
+
+
+class UntriedError(MeshForgeError):
+    """A goal cannot be tried on an asset, so nothing is known of it."""
+
+
+class Goal(Operation, ABC):
+    """What an asset must do after its edit: a frozen dataclass as all operations, written with a small letter."""
+
+    __slots__ = ()
+
+    @classmethod
+    def word(cls) -> str:
+        return cls.__name__.lower()
+
+    @abstractmethod
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        """Return why an asset does not do it, None where it does. Raises UntriedError where that cannot be tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class MissingGoal(MissingOperation, Goal):
+    """A goal of a plug-in that cannot be loaded here."""
+
+    def find_failure(self, subject: GoalSubject) -> NoReturn:
+        self.fail()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Part:
+    """Hulls of an asset in a frame of their own, turned about Z so that their footprint is square to its axes; turn:
+    the rotation (3, 3) upright_T_part."""
+
+    hulls: tuple[Hull, ...]
+    turn: Floats
+
+    @classmethod
+    def of(cls, hulls: Sequence[Hull]) -> Self:
+        """Return the part that hulls are, as the asset stands."""
+        footprint = np.concatenate([hull.vertices[:, :2] for hull in hulls])
+        turn = rotation_about(np.eye(3)[2], square_up_angle(footprint)).T
+        pose = Pose(turn.T, np.zeros(3))
+        return cls(tuple(hull.move(pose) for hull in hulls), turn)
+
+    @property
+    def box(self) -> Aabb:
+        """The box around its hulls."""
+        return Aabb.union(hull.aabb for hull in self.hulls)
+
+    def lower(self, surfaces: Sequence[Surface]) -> list[Surface]:
+        """Return surfaces in its frame."""
+        return [replace(one, vertices=one.vertices @ self.turn) for one in surfaces]
+
+    def lower_hulls(self, hulls: Sequence[Hull]) -> list[Hull]:
+        """Return hulls of the asset as it stands in its frame."""
+        pose = Pose(self.turn.T, np.zeros(3))
+        return [hull.move(pose) for hull in hulls]
+
+    def lift(self, place: Place) -> Place:
+        """Return a place in its frame on the asset as it stands."""
+        return Place(self.turn @ place.at, place.size, self.turn @ place.axes)
+
+
+@dataclass(frozen=True, eq=False)
+class GoalSubject:
+    """An asset as it stands, Z up [m], before and after its edit.
+
+    start, end: the same in the frame of the program, in which extractors select; turn, upright: the rotations (3, 3)
+    upright_T_program and upright_T_file; extremity: see `select`.
+    """
+
+    start: SymbolicMesh
+    end: SymbolicMesh
+    turn: Floats
+    upright: Floats
+    extremity: float = EXTREMITY
+
+    @classmethod
+    def of(cls, before: SymbolicMesh, after: SymbolicMesh, program: Program) -> Self:
+        """Return the subject of an edit by a program, whose frame and thresholds count. Raises ProgramError where the
+        program cannot turn the mesh."""
+        replay = Replay.begin(before, program.orient, program.contact)
+        end = after.with_hulls(hull.move(replay.pose) for hull in after.hulls)
+        end = replace(end, epsilon=replay.start.epsilon, scale=replay.start.scale)
+        upright = find_upright_rotation(before, program.orient)
+        turn = upright @ replay.pose.rotation.T
+        return cls(replay.start, end, turn, upright, EXTREMITY if program.extremity is None else program.extremity)
+
+    @property
+    def touching(self) -> float:
+        """How deep two things may be in each other without counting as such [m]."""
+        return TOLERANCE * self.start.diagonal
+
+    @cached_property
+    def hulls(self) -> tuple[Hull, ...]:
+        """The hulls after the edit. Raises UntriedError where none is left."""
+        if not self.end.hulls:
+            raise UntriedError("no hull is left")
+        return self._lift(self.end.hulls)
+
+    @cached_property
+    def hulls_before(self) -> tuple[Hull, ...]:
+        """The hulls before the edit."""
+        return self._lift(self.start.hulls)
+
+    @cached_property
+    def box(self) -> Aabb:
+        """The box around all hulls before the edit."""
+        return Aabb.union(hull.aabb for hull in self.hulls_before)
+
+    @property
+    def shown(self) -> SymbolicMesh:
+        """The mesh after the edit, with what the asset showed before it, in one frame."""
+        asset = self.start.asset and replace(self.start.asset, visuals=self.surfaces)
+        return replace(self.end, hulls=self.hulls, asset=asset)
+
+    @cached_property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """What the asset shows."""
+        shown = self.start.asset.visuals if self.start.asset else ()
+        return tuple(replace(one, vertices=one.vertices @ self.upright.T) for one in shown if len(one.faces))
+
+    def select(self, extractor: Extractor) -> tuple[Hull, ...]:
+        """Return what an extractor selects before the edit. Raises UntriedError where that is nothing."""
+        found = self._select(extractor)
+        return self._lift([self.start.hulls[k] for k in sorted(bits_of(found))])
+
+    def select_parts(self, extractor: Extractor) -> list[Part]:
+        """Return the same by its parts, which do not touch each other or are of different bodies."""
+        found = self._select(extractor)
+        parts = split_by_contact(self.start, found)
+        return [Part.of(self._lift([self.start.hulls[k] for k in sorted(bits_of(part))])) for part in parts]
+
+    def select_after(self, extractor: Extractor) -> tuple[Hull, ...]:
+        """Return what it selects after the edit. Raises UntriedError where it selects nothing before it, either."""
+        self._select(extractor)
+        found = bits_of(select_mask(extractor, self.end, self.extremity))
+        return tuple(hull for k, hull in enumerate(self.hulls) if k in found)
+
+    def turn_axis(self, direction: str) -> Floats:
+        """Return the axis (3,) of a direction of the program's frame."""
+        sign = 1.0 if direction[0] == "+" else -1.0
+        return sign * self.turn[:, "XYZ".index(direction[1])]
+
+    def _lift(self, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
+        pose = Pose(self.turn, np.zeros(3))
+        return tuple(hull.move(pose) for hull in hulls)
+
+    def _select(self, extractor: Extractor) -> int:
+        if labels_of(extractor) and not any(hull.annotation for hull in self.start.hulls):
+            raise UntriedError(f"it has no labels, and {extractor} asks for some")
+        found = select_mask(extractor, self.start, self.extremity)
+        if not found:
+            raise UntriedError(f"{extractor} selects nothing here")
+        return found
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class GoalResult:
+    """What came of trying a goal. goal: its text; why: it failed, was not tried, or broke; hulls: names of those at
+    fault; objects: what was tried on the asset as it stands, where it was put."""
+
+    goal: str
+    outcome: GoalOutcome
+    why: str = ""
+    hulls: tuple[str, ...] = ()
+    objects: tuple[Shape, ...] = field(default=(), repr=False)
+
+
+def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
+    """Return what comes of a goal on an asset; what a plug-in does wrong, or a program of ours, is `broken`."""
+    plugin: Plugin | None = goal.plugin
+    try:
+        size = subject.start.diagonal
+        if not subject.start.hulls:
+            raise UntriedError("it has no hulls")
+        if not LEAST_SIZE <= size <= MOST_SIZE:
+            raise UntriedError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
+        with blame(plugin):
+            failure = goal.find_failure(subject)
+        if failure is None:
+            return GoalResult(str(goal), "passed")
+        return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
+    except UntriedError as error:
+        return GoalResult(str(goal), "untried", error.problem)
+    except ProgramError:
+        raise
+    except Exception as error:  # one goal never stops the others
+        return GoalResult(str(goal), "broken", describe_error(error))

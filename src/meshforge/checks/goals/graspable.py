@@ -1,0 +1,153 @@
+"""The goal that a parallel gripper takes hold of parts."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from meshforge.checks.goals.base import Goal, GoalSubject, Part
+from meshforge.checks.trials.place import Failure, Place, mm
+from meshforge.common import require_mujoco
+from meshforge.geometry import Aabb, Floats
+from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, WordArgument
+from meshforge.symbolic import Hull
+
+_PULLS = ("back", "up")
+_OPEN = 1.4  # of what is between the fingers, how far they are open
+_ROOM = 1.5  # of half the opening, that open fingers take up to each side
+_SPOTS = (0.5, 0.3, 0.7)
+"""Where a gripper may take a bar, along it."""
+_REACH = 0.2  # of the length of a bar, half the height of fingers
+_MOST_TRIED = 6
+_SHALLOW = 0.2  # of a bar, that fingers reach over at least
+
+
+@dataclass(frozen=True, slots=True)
+class Graspable(Goal):
+    """Some grip of a parallel gripper on each part of a selection is free, closes, and pulls the asset along."""
+
+    handle: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What is gripped"})
+    width: float | None = field(
+        default=None,
+        metadata={
+            "argument": OptionArgument("width", QuantityArgument("m")),
+            "title": "Opening of the gripper [m]",
+            "omitted": "as wide as it takes",
+        },
+    )
+    pull: str = field(default="back", metadata={"argument": OptionArgument("pull", WordArgument(_PULLS))})
+
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        require_mujoco("a goal")
+        from meshforge.checks.trials.graspable import try_grasp  # lazy: MuJoCo takes 0.3 s
+
+        handles = {hull.name for hull in subject.select_after(self.handle)}
+        rest = [hull for hull in subject.hulls if hull.name not in handles]
+        for number, part in enumerate(subject.select_parts(self.handle), 1):
+            outward = part.box.center - part.turn.T @ subject.box.center
+            grips = list(find_grips(part, part.lower_hulls(rest), outward, self.width, 2 * subject.touching))
+            if not grips:
+                return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
+            first: Failure | None = None
+            for grip in grips[:_MOST_TRIED]:
+                why = try_grasp(subject.hulls, part.lift(grip), self.pull, subject.touching)  # type: ignore[arg-type]
+                if why is None:
+                    break
+                first = first or why
+            else:
+                assert first
+                return Failure(f"part {number}: {first.text}", first.hulls, first.objects)
+        return None
+
+    def _describe_lack(self, part: Part) -> str:
+        """Why there is no grip on a part."""
+        thin = float(np.sort(part.box.size)[0])
+        if self.width is not None and self.width <= thin:
+            return f"it is {mm(thin)} thick, and the gripper opens {mm(self.width)}"
+        return "fingers cannot come to it from any side"
+
+
+def find_grips(
+    part: Part, rest: Sequence[Hull], outward: Floats, width: float | None, margin: float
+) -> Iterator[Place]:
+    """Yield where a gripper may take a part, in its frame, the likeliest first.
+
+    Fingers close across the middle of the part, thin sides first, and come from outside of the asset, or from the side,
+    as deep as nothing else is there. rest: other hulls, in the frame of the part; outward: (3,), away from the middle
+    of the asset; width: of the opening [m], None for what it takes; margin: to keep from other hulls [m].
+    """
+    whole = part.box
+    long = int(whole.size.argmax())
+    reach = _REACH * float(whole.size[long])
+    rows = list[tuple[tuple[float, ...], Place]]()
+    for order, spot in enumerate(_SPOTS):
+        at = float(whole.min[long] + spot * whole.size[long])
+        bar = slice_bounds(part.hulls, long, at - reach, at + reach)
+        for across in (k for k in range(3) if k != long):
+            thick = float(bar.size[across]) if bar else np.inf
+            if bar is None or (width is not None and width <= thick):
+                continue
+            opening = _OPEN * thick if width is None else min(width, _OPEN * thick)
+            for axis in (k for k in range(3) if k != across):
+                for side in (1.0, -1.0):
+                    inward = side * np.eye(3)[axis]
+                    half = reach if axis != long else float(bar.size[3 - axis - across]) / 2
+                    grip = _fit_fingers(bar, rest, inward, across, opening / 2, half, margin)
+                    if grip:
+                        is_inside = bool(inward @ outward > 0) or axis == long
+                        rows.append(((is_inside, order, thick, float(inward @ outward)), grip))
+    yield from (grip for _, grip in sorted(rows, key=lambda row: row[0]))
+
+
+def _fit_fingers(
+    bar: Aabb, rest: Sequence[Hull], inward: Floats, across: int, opening: float, half: float, margin: float
+) -> Place | None:
+    """Where fingers take a bar that come along an axis, as deep as nothing is in their way; None where they do not get
+    over it."""
+    axis = int(np.abs(inward).argmax())
+    third = 3 - axis - across
+    reach = np.zeros(3)
+    reach[axis], reach[across], reach[third] = bar.size[axis] / 2, _ROOM * opening, half
+    window = Aabb(bar.center - reach, bar.center + reach)
+    side = float(inward[axis])
+    front, back = (bar.min[axis], bar.max[axis]) if side > 0 else (bar.max[axis], bar.min[axis])
+    ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (_clip(one, window) for one in rest))]
+    depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
+    if depth < _SHALLOW * abs(back - front):
+        return None
+    at = bar.center.copy()
+    at[axis] = front + side * depth / 2
+    closing = np.eye(3)[across]
+    axes = np.stack([inward, closing, np.cross(inward, closing)], axis=1)
+    return Place(at, np.array([depth / 2, opening, half]), axes)
+
+
+def _clip(hull: Hull, window: Aabb) -> Aabb | None:
+    """The box around what of a hull lies in a box."""
+    from manifold3d import Manifold  # lazy: few commands need it
+
+    if (hull.aabb.min > window.max).any() or (hull.aabb.max < window.min).any():
+        return None
+    room = Manifold.cube(window.size.tolist(), center=True).translate(window.center.tolist())
+    inside = Manifold.hull_points(hull.vertices) ^ room
+    box = inside.bounding_box()
+    return None if inside.is_empty() else Aabb(box[:3], box[3:])
+
+
+def slice_bounds(hulls: Sequence[Hull], axis: int, low: float, high: float) -> Aabb | None:
+    """Return the box around what lies between two planes across an axis, None where nothing does."""
+    found = np.concatenate([_slice_points(hull, axis, low, high) for hull in hulls])
+    return Aabb.of_points(found) if len(found) else None
+
+
+def _slice_points(hull: Hull, axis: int, low: float, high: float) -> Floats:
+    """The corners of a hull between two planes, and where its edges cross these."""
+    vertices, faces = hull.vertices, hull.faces
+    starts, ends = vertices[faces].reshape(-1, 3), vertices[np.roll(faces, -1, axis=1)].reshape(-1, 3)
+    rows = [vertices[(vertices[:, axis] >= low) & (vertices[:, axis] <= high)]]
+    for plane in (low, high):
+        before, after = starts[:, axis] - plane, ends[:, axis] - plane
+        cut = before * after < 0
+        share = before[cut] / (before[cut] - after[cut])
+        rows.append(starts[cut] + share[:, None] * (ends[cut] - starts[cut]))
+    return np.concatenate(rows)

@@ -1,0 +1,138 @@
+"""Goals on things that are put somewhere: on a surface, into a room, through an opening."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from meshforge.checks.goals import rooms
+from meshforge.checks.goals.base import Goal, GoalSubject, UntriedError
+from meshforge.checks.trials.place import Failure, Place, mm
+from meshforge.common import require_mujoco
+from meshforge.geometry import Floats
+from meshforge.language import (
+    Direction,
+    DirectionArgument,
+    Extractor,
+    ExtractorArgument,
+    OptionArgument,
+    QuantityArgument,
+    Share,
+    WordArgument,
+)
+
+_SHAPES, _PROBES = ("box", "sphere", "cylinder"), ("box", "sphere")
+_MIDDLE = 0.4  # of each side of a surface, that things are put within on both sides of its middle
+_LOW = 0.2  # of the height of a part, by which a spot may lie lower than its top
+
+
+def _size(of: str) -> OptionArgument:
+    return OptionArgument("size", QuantityArgument("m", of))
+
+
+@dataclass(frozen=True, slots=True)
+class Supports(Goal):
+    """Boxes and balls that are put onto each part of a selection stay there."""
+
+    surface: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What carries"})
+    size: float | Share = field(
+        default=Share(0.1), metadata={"argument": _size("its shorter side"), "title": "Size of the balls"}
+    )
+
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        require_mujoco("a goal")
+        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+
+        placed = []
+        for number, part in enumerate(subject.select_parts(self.surface), 1):
+            box = part.box
+            long, wide = box.size[:2]
+            radius = _measure(self.size, float(min(long, wide))) / 2
+            at = np.array([*box.center[:2], box.max[2]])
+            surface = Place(at, np.array([_MIDDLE * long, _MIDDLE * wide, radius]), np.eye(3))
+            there = objects.objects_on(f"surface {number}", surface)
+            tops = rooms.measure_tops(part.hulls, np.array([one.spot[:2] for one in there]))
+            low = box.max[2] - _LOW * box.size[2]
+            placed += [
+                replace(one, spot=part.turn @ np.array([*one.spot[:2], top]), axes=part.turn)
+                for one, top in zip(there, tops, strict=True)
+                if top >= low
+            ]
+        if not placed:
+            raise UntriedError(f"{self.surface} has no surface to put things on")
+        return objects.try_support(subject.hulls, placed, subject.touching)
+
+
+@dataclass(frozen=True, slots=True)
+class Contains(Goal):
+    """A thing that is put into each part of a selection is free there, and stays."""
+
+    holder: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What holds"})
+    shape: str = field(default="box", metadata={"argument": OptionArgument("shape", WordArgument(_SHAPES))})
+    size: float | Share = field(default=Share(0.8), metadata={"argument": _size("the room"), "title": "Size"})
+
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        require_mujoco("a goal")
+        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+
+        places = dict[str, Place]()
+        for number, part in enumerate(subject.select_parts(self.holder), 1):
+            room = rooms.find_room(part.hulls, part.lower(subject.surfaces))
+            if room is None:
+                continue
+            if too_large := _find_excess(self.size, room.size, "room", f"room {number}"):
+                return too_large
+            half = _half_sizes(self.size, room.size)
+            at = room.at + np.array([0.0, 0.0, half[2] + subject.touching - room.size[2]])
+            places[f"room {number}"] = part.lift(replace(room, at=at, size=half))
+        if not places:
+            raise UntriedError(f"{self.holder} has no room that a thing could lie in")
+        return objects.try_contain(subject.hulls, places, self.shape, subject.touching)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True)
+class Passes(Goal):
+    """A probe goes straight through the opening that each part of a selection leaves, and meets nothing."""
+
+    opening: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What leaves the opening"})
+    way: Direction | None = field(
+        default=None, metadata={"argument": DirectionArgument(), "title": "Along", "omitted": "the largest opening"}
+    )
+    shape: str = field(default="box", metadata={"argument": OptionArgument("shape", WordArgument(_PROBES))})
+    size: float | Share = field(default=Share(0.8), metadata={"argument": _size("the opening"), "title": "Size"})
+
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        require_mujoco("a goal")
+        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+
+        ways = dict[str, Place]()
+        for number, part in enumerate(subject.select_parts(self.opening), 1):
+            axes = range(3) if self.way is None else [int(np.abs(part.turn.T @ subject.turn_axis(self.way)).argmax())]
+            found = [one for one in (rooms.find_way(part.hulls, axis) for axis in axes) if one]
+            if not found:
+                continue
+            way = max(found, key=lambda one: float(one.size[1] * one.size[2]))
+            if too_large := _find_excess(self.size, way.size[1:], "opening", f"opening {number}"):
+                return too_large
+            size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
+            ways[f"opening {number}"] = part.lift(replace(way, size=size))
+        if not ways:
+            raise UntriedError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
+        return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]
+
+
+def _measure(size: float | Share, whole: float) -> float:
+    return size.value * whole if isinstance(size, Share) else size
+
+
+def _half_sizes(size: float | Share, half: Floats) -> Floats:
+    """Half extents of what is tried in a room, or an opening, of some half sides."""
+    return size.value * half if isinstance(size, Share) else np.full(len(half), size / 2)
+
+
+def _find_excess(size: float | Share, half: Floats, what: str, name: str) -> Failure | None:
+    """The failure that a thing is larger than the room or the opening, as it is without anything in the way."""
+    wanted = _half_sizes(size, half)
+    if (wanted <= half).all():
+        return None
+    sides = " x ".join(mm(2 * one) for one in half)
+    return Failure(f"{name}: the {what} is {sides}, too small for {mm(2 * float(wanted.max()))}")

@@ -1,0 +1,127 @@
+"""Where things could lie on, lie in and go through parts of an asset: found from the parts alone, before an edit, so
+that whatever else is there is in the way."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from meshforge.checks.grid import (
+    Grid,
+    Mask,
+    flood_from_outside,
+    grid_around,
+    heights_at,
+    voxelize_hulls,
+    voxelize_surface,
+)
+from meshforge.checks.surface_samples import join_corners
+from meshforge.checks.trials.place import Place
+from meshforge.common import GeometryError
+from meshforge.geometry import Aabb, Floats, Polytope, convex_hull
+from meshforge.symbolic import Hull, Surface
+
+_NEAR = 2.0  # cells, that what is shown may be away from the hulls of a part
+_LEAST = 2  # cells along each side of a room or an opening
+
+
+def measure_tops(hulls: Sequence[Hull], places: Floats) -> Floats:
+    """Return how high hulls reach (n,) [m] at places (n, 2), -inf where none of them is."""
+    tops = np.full(len(places), -np.inf)
+    for hull in hulls:
+        low, high = heights_at(hull.shape, places)
+        tops = np.where(low <= high, np.maximum(tops, high), tops)
+    return tops
+
+
+def find_room(hulls: Sequence[Hull], surfaces: Sequence[Surface]) -> Place | None:
+    """Return the largest box of free space in a part, None without one; size: half sides [m].
+
+    The part is what is shown beside its hulls, or else the hulls. Free is what can be reached from outside, within the
+    convex hull of the part and above some of it.
+    """
+    whole = _hull_around(hulls)
+    if whole is None:
+        return None
+    grid = grid_around(whole.aabb)
+    around = voxelize_hulls(grid, [whole])
+    taken = _voxelize_shown(grid, surfaces, hulls, around)
+    if not taken.any():
+        taken = voxelize_hulls(grid, [hull.shape for hull in hulls])
+    above: Mask = np.maximum.accumulate(taken, axis=2)
+    free = np.asarray(flood_from_outside(taken) & around & above, dtype=np.bool_)
+    return _largest_box(grid, free)
+
+
+def find_way(hulls: Sequence[Hull], axis: int) -> Place | None:
+    """Return the largest straight way along an axis through the opening that hulls leave, None without one.
+
+    It begins at `at`, where the hulls do; size: its length, and half sides of the opening [m].
+    """
+    whole = _hull_around(hulls)
+    if whole is None:
+        return None
+    grid = grid_around(whole.aabb)
+    seen = voxelize_hulls(grid, [hull.shape for hull in hulls]).any(axis=axis, keepdims=True)
+    free = voxelize_hulls(grid, [whole]).any(axis=axis, keepdims=True) & ~seen
+    others = [k for k in range(3) if k != axis]
+    flat = Grid(grid.origin, grid.cell, tuple(1 if k == axis else n for k, n in enumerate(grid.shape)))  # type: ignore[arg-type]
+    box = _largest_box(flat, free, others)
+    if box is None:
+        return None
+    at, axes = box.at.copy(), np.eye(3)[:, [axis, *others]]
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    at[axis] = whole.aabb.min[axis]
+    return Place(at, np.array([whole.aabb.size[axis], *box.size[others]]), axes)
+
+
+def _hull_around(hulls: Sequence[Hull]) -> Polytope | None:
+    points = np.concatenate([hull.vertices for hull in hulls])
+    try:
+        return convex_hull(points)
+    except GeometryError:  # flat
+        return None
+
+
+def _voxelize_shown(grid: Grid, surfaces: Sequence[Surface], hulls: Sequence[Hull], around: Mask) -> Mask:
+    """The cells of what is shown that are near to a part, of its bodies where the file tells these."""
+    from scipy.ndimage import binary_dilation  # lazy: 0.3 s
+
+    bodies = {hull.body for hull in hulls}
+    shown = [one for one in surfaces if one.body is None or one.body in bodies]
+    if not shown:
+        return grid.empty_mask()
+    corners = join_corners(shown)
+    low, high = grid.origin, grid.origin + grid.cell * np.array(grid.shape)
+    inside = (corners.max(axis=1) >= low).all(axis=1) & (corners.min(axis=1) <= high).all(axis=1)
+    if not inside.any():
+        return grid.empty_mask()
+    return voxelize_surface(grid, corners[inside]) & binary_dilation(around, iterations=int(_NEAR))
+
+
+def _largest_box(grid: Grid, free: Mask, axes: Sequence[int] = (0, 1, 2)) -> Place | None:
+    """The box that grows from the largest cube of free cells, along some axes."""
+    from scipy.ndimage import distance_transform_cdt  # lazy: 0.3 s
+
+    padded = np.pad(free, [(1, 1) if k in axes else (0, 0) for k in range(3)])
+    flat = padded.squeeze(axis=tuple(k for k in range(3) if k not in axes))
+    reach = distance_transform_cdt(flat, metric="chessboard").reshape(padded.shape)
+    best = np.unravel_index(int(reach.argmax()), reach.shape)
+    half = int(reach[best]) - 1
+    if 2 * half + 1 < _LEAST:
+        return None
+    low = np.array([best[k] - half if k in axes else 0 for k in range(3)])
+    high = np.array([best[k] + half + 1 if k in axes else 1 for k in range(3)])
+    grows = True
+    while grows:
+        grows = False
+        for axis in axes:
+            for side in (low, high):
+                more = (low.copy(), high.copy())
+                at = int(side[axis]) - 1 if side is low else int(side[axis])
+                more[0][axis], more[1][axis] = at, at + 1
+                if padded[tuple(slice(a, b) for a, b in zip(*more, strict=True))].all():
+                    side[axis] += -1 if side is low else 1
+                    grows = True
+    shift = np.array([1 if k in axes else 0 for k in range(3)])
+    box = Aabb(grid.origin + (low - shift) * grid.cell, grid.origin + (high - shift) * grid.cell)
+    return Place(box.center, box.size / 2, np.eye(3))
