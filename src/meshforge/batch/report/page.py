@@ -16,6 +16,7 @@ from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
 from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, label_colors, look_of
+from meshforge.signoff import ResultStatusWord
 from meshforge.symbolic import find_unchanged
 
 MOST_PICTURED = 120
@@ -124,9 +125,7 @@ def write_report(
         header=header,
         figures=figures,
         counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
-        result_statuses=[
-            (word, n) for word in get_args(contents.ResultStatusWord) if (n := figures.result_statuses.get(word))
-        ],
+        result_statuses=[(word, n) for word in get_args(ResultStatusWord) if (n := figures.result_statuses.get(word))],
         selection=_describe_selection(len(assets), figures),
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
@@ -177,7 +176,7 @@ def _describe_findings(found: Sequence[Finding]) -> str:
 
 def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
     present = {word for asset in assets for word in (asset.status, asset.result_status and asset.result_status.word)}
-    kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.ResultStatusWord)) if word in present]
+    kinds: list[str] = [word for word in (*STATUSES, *get_args(ResultStatusWord)) if word in present]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
     if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):
