@@ -1,6 +1,8 @@
 """What became of each asset: a closed union of plain data, which pickles and prints as one JSON line; and the sums
 of a run, counted as outcomes come."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -17,11 +17,12 @@ from meshforge.checks import Examination, Finding, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
 from meshforge.rendering import ColorBy, compare, draw_difference, encode_webp, render
-from meshforge.signoff import ResultStatus, ResultStatusWord
 from meshforge.symbolic import SymbolicMesh, transfer_labels
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+    from meshforge.signoff import ResultStatus, ResultStatusWord
 
 
 EditStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
