@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,12 +74,17 @@ class BodyTree:
         return [name for name in self.order if not self.joints[name]]
 
 
-def claim_name(wanted: str, taken: set[str]) -> str:
-    """Return a name that is not taken: the wanted one, or with a number behind it; it is taken from then on."""
-    name, number = wanted, 2
-    while name in taken:
-        name, number = f"{wanted}_{number}", number + 1
-    taken.add(name)
+def claim_name(
+    wanted: str, taken: set[str], named: Callable[[str], str] = str, fold: Callable[[str], str] = str, gap: str = "_"
+) -> str:
+    """Return what `named` makes of a name, with a number behind a gap where that is taken; it is taken from then on.
+
+    fold: what `taken` holds of a name, such as `str.lower`.
+    """
+    name, number = named(wanted), 2
+    while fold(name) in taken:
+        name, number = named(f"{wanted}{gap}{number}"), number + 1
+    taken.add(fold(name))
     return name
 
 
