@@ -11,7 +11,7 @@ from meshforge.common import AssetError, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_output, xml
 from meshforge.formats.link_reader import CollisionMeshes, geometry_of
 from meshforge.formats.references import reference_of
-from meshforge.geometry import Piece, Polytope, Pose, Shape
+from meshforge.geometry import Floats, Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 _MADE_UP = re.compile(r"geom\d+(#\d+)?(@\d+)?(~\d+)*")  # what a collision without a name is called, and hulls after it
@@ -73,12 +73,20 @@ class ElementMaker(ABC):
         """Return the pose of a shape that the format has of its own, and its lines without that; None for others."""
 
     @abstractmethod
-    def mesh_lines(self, reference: str) -> list[bytes]:
-        """Return the lines of a mesh file in metres."""
+    def mesh_lines(self, reference: str, scale: Floats | None = None) -> list[bytes]:
+        """Return the lines of a mesh file in metres, which factors (3,) may scale."""
 
     @abstractmethod
+    def pose_tag(self, pose: Pose) -> bytes:
+        """Return the element of a pose, its numbers in full precision."""
+
+    def geometry_lines(self, pose: Pose, kind: Sequence[bytes]) -> list[bytes]:
+        """Return the lines of a pose and of a geometry, whose own lines are `kind`."""
+        return [self.pose_tag(pose), *xml.nest("geometry", *kind)]
+
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
         """Return a `<collision>` without a name, whose lines but the first are indented by `lead`."""
+        return (xml.newline_of(self.data) + lead).join(xml.nest("collision", *self.geometry_lines(pose, kind)))
 
     @abstractmethod
     def replace_geometry(
