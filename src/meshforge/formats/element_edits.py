@@ -179,7 +179,7 @@ class ElementEdits:
         """All collision elements in the order of the output."""
         by_link: dict[str, list[OutputElement]] = {name: [] for name in self.links}
         for (_, outputs), authored in zip(self.places, self.authored, strict=True):
-            by_link[authored.link] += outputs
+            by_link[authored.body] += outputs
         for link, outputs in self.ends.items():
             by_link[link] += outputs
         return [output for outputs in by_link.values() for output in outputs]
@@ -197,17 +197,17 @@ class ElementEdits:
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
-                outputs = [OutputElement(authored.link, authored.names, element.attributes.get("name"), element)]
+                outputs = [OutputElement(authored.body, authored.names, element.attributes.get("name"), element)]
             else:
                 outputs = []  # an element for each piece, its triangles as authored in a file of their own
                 for k, name in staying.items():
                     edits, old = self.maker.extract_piece(element, name, k), element.attributes.get("name")
-                    outputs.append(OutputElement(authored.link, (name,), old, element, edits, copy=bool(outputs)))
+                    outputs.append(OutputElement(authored.body, (name,), old, element, edits, copy=bool(outputs)))
             self.places.append((element, outputs))
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
-        own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
+        own = [k for k, authored in enumerate(self.authored) if authored.body == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
         lead = child_indent_of(self.maker.data, self.links[geom.body])

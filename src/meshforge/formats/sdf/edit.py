@@ -178,7 +178,7 @@ class SdfElementMaker(element_edits.ElementMaker):
 
 def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> None:
     """Raise AssetError where an edit would change a mass that Gazebo computes of collisions."""
-    edited = {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
+    edited = {one.body for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
     edited |= {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
     for body in sorted(edited | plan.ends.keys()):
         inertial = plan.links[body].first("inertial")
