@@ -1,14 +1,14 @@
 """Writing an edited SDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats import element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.references import add_copy, note_absolute, reference_of
+from meshforge.formats.references import collect_copies, reference_of
 from meshforge.formats.sdf import document, frames, models
 from meshforge.geometry import Capsule, Ellipsoid, Floats, Pose, Shape
 from meshforge.symbolic import Asset, Coupling, Geom, Inertial
@@ -81,7 +81,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     names = element_edits.assign_names([output for plan in plans for output in plan.outputs])
     each = list(zip(plans, origin.sources, strict=True))
     texts = [_build_text(asset, origin, plan, source, mass) for plan, source in each]
-    copies, notes = list_copies(origin.sources, texts, name)
+    copies, notes = collect_copies(_list_files(origin.sources, texts, name), _REMEDY)
     made: dict[str, bytes] = {}
     for plan, source in each:
         folder = posixpath.dirname(source.place or "")
@@ -188,30 +188,19 @@ def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> Non
             raise AssetError(problem, where=where, remedy=remedy)
 
 
-def list_copies(
+def _list_files(
     sources: Sequence[document.SdfSource], texts: Sequence[bytes], name: str
-) -> tuple[dict[str, Path], list[str]]:
-    """Return the files, and notes on those that stay where they are; texts: of the sources as they are written; name:
-    of the main one, whose `model.config` goes along where that names a file of that name.
-
-    Raises AssetError where two of them would become one.
-    """
-    copies: dict[str, Path] = {}
-    notes = []
+) -> Iterator[tuple[str, str | None, Path | None]]:
+    """Yield references, each with its place and its file; texts: of the sources as they are written; name: of the main
+    one, whose `model.config` goes along where that names a file of that name."""
     for number, (source, text) in enumerate(zip(sources, texts, strict=True)):
         if source.place is None:
-            notes.append(note_absolute(source.reference))
+            yield source.reference, None, source.path
             continue
         folder = posixpath.dirname(source.place)
         config = source.path.parent / document.CONFIG
         if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
-            add_copy(copies, posixpath.join(folder, document.CONFIG), config, _REMEDY)
+            yield "", posixpath.join(folder, document.CONFIG), config
         for reference, path in document.list_references(source, xml.XmlText.of(text).data):
             place = source.resolver.place(reference)
-            if path is None:
-                continue
-            if place is None:
-                notes.append(note_absolute(reference))
-            else:
-                add_copy(copies, posixpath.normpath(posixpath.join(folder, place)), path, _REMEDY)
-    return copies, notes
+            yield reference, place and posixpath.normpath(posixpath.join(folder, place)), path

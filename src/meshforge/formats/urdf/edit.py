@@ -9,7 +9,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats import base, collision_pieces, element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.conversion import note_hulled
 from meshforge.formats.link_output import LinkCreator
-from meshforge.formats.references import Resolver, add_copy, note_absolute, placement, reference_of
+from meshforge.formats.references import collect_copies, placement, reference_of
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, collisions, parse_robot, references
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, FeatureKind, Inertial, Rgba, Surface
@@ -18,6 +18,7 @@ UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
 CAPSULE_READERS = "URDF without --urdf-capsules (MuJoCo 4, Bullet and Drake read <capsule>, yourdfpy 0.0.60 refuses it)"
 """Why a capsule is written as a hull, and who reads what would be written else."""
+_REMEDY = "Rename one of them, or put both under one package root."
 
 UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
 _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
@@ -83,23 +84,9 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: boo
     names = element_edits.assign_names(plan.outputs, unique=True)
     data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
-    copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
+    texts = references(parse_robot(data, str(asset.path)))
+    copies, far = collect_copies(((text, placement(text), document.resolver.find(text)) for text in texts), _REMEDY)
     return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
-
-
-def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
-    """The input files that the output refers to, by where they go; and notes on those that stay where they are."""
-    copies: dict[str, Path] = {}
-    notes = []
-    for reference in references(robot):
-        place, path = placement(reference), resolver.find(reference)
-        if path is None:  # made, or missing from the start
-            continue
-        if place is None:
-            notes.append(note_absolute(reference))
-        else:
-            add_copy(copies, place, path, "Rename one of them, or put both under one package root.")
-    return copies, notes
 
 
 @dataclass(eq=False)
