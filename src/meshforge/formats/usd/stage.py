@@ -187,7 +187,7 @@ def usd(where: str) -> Iterator[list[str]]:
             raise AssetError(problem, where=where, remedy=REMEDY) from error
         finally:
             found = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
-            complaints += dict.fromkeys(found)
+            complaints += sorted(set(found))  # it reads in several threads, whose order is chance
             del delegate
 
 
