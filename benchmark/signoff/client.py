@@ -95,7 +95,7 @@ class Client(TaskClient):
 
 
 def _build_status(found: Assessment, has_program: bool, nearest: Nearest | None) -> FamilyStatus:
-    shares = {name: one.probability for name, one in found.assets.items()}
+    shares = {name: one.confidence for name, one in found.assets.items()}
     return FamilyStatus(
         found.question, has_program, found.signed_off, found.need_review, found.excluded, shares, nearest
     )

@@ -113,7 +113,7 @@ def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question
     hello = studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
     question = hello["assessment"]["question"]
     project = Project.open(home(studio))
-    waits = [one.id for one in project.status().assets if one.sign_off == "sure"]
+    waits = [one.id for one in project.status().assets if one.result_status.state == "sure"]
     assert waits and not project.sign_offs()
     studio.edit("reply", question=question, later=True)
     assert run(studio, kind="apply")["state"] == "done"
@@ -121,7 +121,7 @@ def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question
     ok(studio.post("/api/undo"))
     assert project.feedback().snoozed == () and set(waits) <= set(project.sign_offs())
     studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
-    assert {one.sign_off for one in project.status().assets if one.id in waits} == {"signed off"}
+    assert {one.result_status.state for one in project.status().assets if one.id in waits} == {"signed off"}
 
 
 def test_what_was_decomposed_is_undone_with_one_step(studio: Studio, tmp_path: Path) -> None:

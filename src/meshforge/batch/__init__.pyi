@@ -79,13 +79,11 @@ from meshforge.batch.provenance import stamp_path as stamp_path
 from meshforge.batch.provenance import template_digests as template_digests
 from meshforge.batch.provenance import text_digest as text_digest
 from meshforge.batch.provenance import value_digest as value_digest
-from meshforge.batch.report.contents import ResultStatus as ResultStatus
 from meshforge.batch.report.contents import LabelStatus as LabelStatus
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
 from meshforge.batch.report.contents import ReportStatus as ReportStatus
 from meshforge.batch.report.contents import RunFigures as RunFigures
-from meshforge.batch.report.contents import ResultStatusWord as ResultStatusWord
 from meshforge.batch.report.contents import read_again as read_again
 from meshforge.batch.report.contents import read_job as read_job
 from meshforge.batch.report.outcomes import choose_outcomes as choose_outcomes

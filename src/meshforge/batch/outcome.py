@@ -1,13 +1,15 @@
 """What became of each asset: a closed union of plain data, which pickles and prints as one JSON line; and the sums
 of a run, counted as outcomes come."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 from meshforge import language, signoff
-from meshforge.common import pluralize, suggest_match
+from meshforge.common import format_share, pluralize, suggest_match
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
@@ -90,41 +92,32 @@ AssetOutcome = Edited | Unchanged | Failed | Skipped
 class NeedsReview:
     """An asset that was not written in a run, since its edit is less sure than was asked for.
 
-    probability: that it is right; reasons: why it may not be, as JSON; why: one sentence; out: an output of an earlier
-    run, which stays as it is.
+    out: an output of an earlier run, which stays as it is.
     """
 
+    status: ClassVar[Literal["needs review"]] = "needs review"
+    seconds: ClassVar[float] = 0.0
     asset: str
-    probability: float
-    reasons: tuple[dict[str, Any], ...]
-    why: str
+    result_status: signoff.ResultStatus
     out: str | None = None
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the line of `apply --json` for it."""
-        return {
-            "asset": self.asset,
-            "status": "needs review",
-            "out": self.out,
-            "error": None,
-            "rules": [],
-            "hulls": {"before": None, "after": None},
-            "seconds": 0.0,
-            "probability": round(self.probability, 4),
-            "reasons": list(self.reasons),
-        }
+    def describe(self) -> str:
+        """Return how sure it is, and why not surer, in one sentence."""
+        reason = next((one.text for one in self.result_status.reasons), "no single doubt stands out")
+        kept = "; the output of an earlier run stays as it is" if self.out else ""
+        return f"{format_share(self.result_status.confidence)} sure; {reason}{kept}"
 
 
-def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> dict[str, Any]:
-    """Return the line of `apply --json` for an outcome; what a failed asset has not is null or empty.
+def to_json_line(outcome: AssetOutcome | NeedsReview, alarms: Sequence[str] | None = None) -> dict[str, Any]:
+    """Return the line of `apply --json` for an outcome; what an asset that was not written has not is null or empty.
 
     alarms: sentences about it, None where nobody looks for any: then the line does not speak of them.
     """
-    ran = None if isinstance(outcome, Failed) else outcome
+    ran = outcome if isinstance(outcome, RunOutcome) else None
     return {
         "asset": outcome.asset,
         "status": outcome.status,
-        "out": ran.out if ran else None,
+        "out": None if isinstance(outcome, Failed) else outcome.out,
         "error": outcome.error if isinstance(outcome, Failed) else None,
         "rules": [
             {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
@@ -134,6 +127,7 @@ def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> 
         "hulls": {"before": ran.before if ran else None, "after": ran.after if ran else None},
         "seconds": round(outcome.seconds, 3),
         **({} if alarms is None else {"alarms": list(alarms)}),
+        **(outcome.result_status.to_json() if isinstance(outcome, NeedsReview) else {}),
     }
 
 

@@ -87,9 +87,9 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     summary.need_review = work.need_review
     for need_review in work.need_review:
         if given.json:
-            print_json({**need_review.to_json(), **work.describe_new(need_review.asset)}, compact=True)
+            print_json({**batch.to_json_line(need_review), **work.describe_new(need_review.asset)}, compact=True)
         else:
-            typer.echo(f"needs review {escape_name(need_review.asset)}: {need_review.why}")
+            typer.echo(f"needs review {escape_name(need_review.asset)}: {need_review.describe()}")
     if not given.json:
         log.print_repeated()
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")

@@ -16,12 +16,12 @@ from meshforge import batch
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, format_share, join_names, suggest_name
+from meshforge.common import UsageError, join_names, suggest_name
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
     from meshforge.project import NewAsset, NewAssetOptions, NewAssetResult, Project, ProjectReview
-    from meshforge.signoff import AssetConfidence
+    from meshforge.signoff import ResultStatus
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +126,7 @@ class ApplyWork:
     need_review: Sequence[batch.NeedsReview] = ()
     project: Project | None = None
     new: NewAssets = field(default_factory=NewAssets)
-    confidences: Mapping[str, AssetConfidence] = field(default_factory=dict)
+    confidences: Mapping[str, ResultStatus] = field(default_factory=dict)
 
     def readers(self, assets: Iterable[str]) -> Sequence[batch.MeshReader]:
         """Return functions that read assets as they were before the run."""
@@ -143,11 +143,8 @@ class ApplyWork:
     def describe_result_statuses(self) -> dict[str, dict[str, Any]]:
         """Return how sure each edit of a project is, as far as its last review holds, by asset."""
         rows = self.project.status().assets if self.project else ()
-        result_statuses = {one.id: one.confidence_to_json() for one in rows}
-        result_statuses |= {
-            asset: {"probability": round(one.probability, 4), "reasons": [reason.to_json() for reason in one.reasons]}
-            for asset, one in self.confidences.items()
-        }
+        result_statuses = {one.id: one.result_status.to_json() for one in rows}
+        result_statuses |= {asset: one.to_json() for asset, one in self.confidences.items()}
         return result_statuses | {
             asset: {**result_statuses.get(asset, {}), **self.describe_new(asset)} for asset in self.new.prepared
         }
@@ -155,7 +152,11 @@ class ApplyWork:
     def find_outliers(self, alarms: Alarms) -> list[str]:
         """Return the assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
         rows = self.project.status().assets if self.project and alarms else ()
-        known = {one.id for one in rows if one.sign_off == "signed off" or one.review == "accepted" or one.demonstrated}
+        known = {
+            one.id
+            for one in rows
+            if one.result_status.state == "signed off" or one.review == "accepted" or one.demonstrated
+        }
         return [asset for asset in alarms if asset not in known]
 
     def describe_new(self, asset: str) -> dict[str, Any]:
@@ -203,12 +204,13 @@ def _work_of_others(
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
     new_options = replace(new_options, guess=bool(program.labels_asked))
     jobs, new = _prepare_given(project, given.assets or (), given.labels, folder, new_options)
-    found: dict[str, AssetConfidence] = {}
+    found: dict[str, ResultStatus] = {}
     need_review: tuple[batch.NeedsReview, ...] = ()
     if review and given.min_confidence is not None:
         found = assess_new_assets(project, review, jobs, new.prepared, new_options.execution)
-        unsure = (one for one in found.values() if one.probability < given.min_confidence)
-        need_review = tuple(_to_needs_review(one, out) for one in sorted(unsure, key=lambda one: one.probability))
+        unsure = [asset for asset, one in found.items() if one.confidence < given.min_confidence]
+        unsure.sort(key=lambda asset: found[asset].confidence)
+        need_review = _leave_out(unsure, found, out)
     names = {one.asset for one in need_review}
     rest = [job for job in jobs if job.id not in names]
     return ApplyWork(program, rest, out, templates, need_review, new=new, confidences=found)
@@ -225,7 +227,7 @@ def _review(project: Project, threshold: float) -> ProjectReview:
 
 def _list_unsure(project: Project, out: Path, threshold: float) -> tuple[batch.NeedsReview, ...]:
     found = _review(project, threshold).assessment
-    return tuple(_to_needs_review(found.assets[name], out) for name in found.need_review)
+    return _leave_out(found.need_review, found.assets, out)
 
 
 def work_of_program(given: ApplyArguments) -> ApplyWork:
@@ -288,13 +290,10 @@ def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
     return replace(options, execution=execution, stage=progress)
 
 
-def _to_needs_review(found: AssetConfidence, out: Path) -> batch.NeedsReview:
-    """Hold an asset back, since its edit is not sure enough."""
-    written = batch.read_stamp(out, found.asset)
-    kept = str(out / written.out) if written and written.out else None
-    reason = found.reasons[0].text if found.reasons else "no single doubt stands out"
-    why = f"{format_share(found.probability)} sure; {reason}"
-    why += "; the output of an earlier run stays as it is" if kept else ""
-    return batch.NeedsReview(
-        found.asset, found.probability, tuple(reason.to_json() for reason in found.reasons), why, kept
+def _leave_out(assets: Iterable[str], found: Mapping[str, ResultStatus], out: Path) -> tuple[batch.NeedsReview, ...]:
+    """Hold assets back, since their edits are not sure enough."""
+    rows = ((asset, batch.read_stamp(out, asset)) for asset in assets)
+    return tuple(
+        batch.NeedsReview(asset, found[asset], str(out / kept.out) if kept and kept.out else None)
+        for asset, kept in rows
     )

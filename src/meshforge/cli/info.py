@@ -35,7 +35,7 @@ def _describe_result_status(asset: Path, folder: Path | None) -> dict[str, Any]:
 
     project = Project.open(folder)
     name = asset_id(asset, project)
-    found = (one.confidence_to_json() for one in project.status().assets if one.id == name)
+    found = (one.result_status.to_json() for one in project.status().assets if one.id == name)
     return next(found, {})  # of none that is not of the family
 
 

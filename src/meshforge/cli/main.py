@@ -36,7 +36,7 @@ COMMANDS = {
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
     "select": "List the hulls that an extractor selects, in the frame the asset comes in",
-    "render": "Draw an asset as a PNG or JPEG, or as a GIF that turns, one colour a hull or a label",
+    "render": "Draw an asset as a PNG or JPEG, one colour a hull or a label",
     "diff": "Compare two assets hull by hull",
     "decompose": "Decompose a mesh into convex hulls by CoACD or V-HACD",
     "convert": "Write an asset in another format, or unchanged in its own",

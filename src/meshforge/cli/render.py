@@ -1,4 +1,4 @@
-"""`meshforge render`: a picture of an asset's hulls, or a GIF in which it turns."""
+"""`meshforge render`: a picture of an asset's hulls."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +8,7 @@ import typer
 
 from meshforge import inspection, rendering
 from meshforge.cli.console import progress
-from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, refuse_with, takes
+from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, escape_name
 
@@ -20,10 +20,6 @@ class RenderArguments:
     context: typer.Context
     asset: AssetFile
     out: Annotated[Path | None, typer.Option("-o", "--out", help="The PNG or JPEG to write.")] = None
-    turntable: Annotated[
-        Path | None,
-        typer.Option("--turntable", help="A GIF to write, in place of a picture: the camera goes once round."),
-    ] = None
     labels: LabelsPath = None
     project: InProject = None
     color_by: Annotated[
@@ -38,9 +34,7 @@ class RenderArguments:
             "front-right-above, back-left-below and so on.",
         ),
     ] = "iso"
-    size: Annotated[
-        str | None, typer.Option("--size", help="Pixels of the picture, by default 900x700; of a turntable 480x400.")
-    ] = None
+    size: Annotated[str, typer.Option("--size", help="Pixels of the picture.")] = "900x700"
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
     names: Annotated[
         bool,
@@ -50,33 +44,17 @@ class RenderArguments:
 
 @takes(RenderArguments)
 def render(given: RenderArguments) -> None:
-    """Draw an asset as a PNG or JPEG, or as a GIF that turns, one colour a hull or a label; needs no display."""
-    if given.turntable:
-        _write_turntable(given, given.turntable)
-        return
+    """Draw an asset as a PNG or JPEG, one colour a hull or a label; needs no display."""
     if given.out is None:
-        raise UsageError("nothing says what to write", remedy="Give --out FILE.png, or --turntable FILE.gif.")
+        raise UsageError("nothing says what to write", remedy="Give --out FILE.png.")
     rendering.check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
-    views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
+    views, size = _parse_views(given.views), _parse_pixels(given.size)
     with progress(None, "drawing"):
         inspection.render(
             mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
         )
     remark(f"wrote {escape_name(str(given.out))}")
-
-
-def _write_turntable(given: RenderArguments, path: Path) -> None:
-    """Write the GIF. Raises UsageError for what does not go with one, and where it cannot be written."""
-    refuse_with(given.context, ("out", "views", "ghost", "names"), "--turntable")
-    if path.suffix.lower() != ".gif":
-        raise UsageError("a turntable is a GIF", where=str(path), remedy="Give it a name that ends in .gif.")
-    size = _parse_pixels(given.size or "480x400")
-    mesh = open_asset(given.asset, given.labels, given.project)
-    color_by = given.color_by or ("label" if mesh.labels else "hull")
-    with progress(None, "drawing"):
-        rendering.write_gif(path, rendering.draw_turn(mesh, rendering.list_turns(), size=size, color_by=color_by))
-    remark(f"wrote {escape_name(str(path))}")
 
 
 def _parse_views(text: str) -> list[rendering.View]:

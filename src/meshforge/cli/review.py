@@ -92,7 +92,7 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
 
 def _is_written(project: Project) -> bool:
     """Whether all outputs are up to date, but for those of assets that are given up."""
-    return all(asset.is_done or asset.excluded for asset in project.status().assets)
+    return all(asset.is_done or asset.result_status.excluded for asset in project.status().assets)
 
 
 def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:

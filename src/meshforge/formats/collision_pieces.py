@@ -34,9 +34,9 @@ class CollisionPiece:
 
 @dataclass(frozen=True, slots=True)
 class CollisionElement:
-    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and others."""
+    """An element of a file that collides: its body, and the names of its pieces in order, hulls and others."""
 
-    link: str
+    body: str
     names: tuple[str, ...]
 
     @property
@@ -205,9 +205,9 @@ def build_pieces(
     for one, own, texts in zip(authored, parts, mentions, strict=True):
         for name, part, mention in zip(one.names, own, texts, strict=True):
             if part.shape:
-                hulls.append(Geom(name, one.link, part.shape, mentions=mention, element=one.element, fill=part.fill))
+                hulls.append(Geom(name, one.body, part.shape, mentions=mention, element=one.element, fill=part.fill))
             else:
-                piece = NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, mention, one.element)
+                piece = NonConvexPiece(name, one.body, part.reason, part.surface, part.plane, mention, one.element)
                 others.append(piece)
     return tuple(hulls), tuple(others)
 

@@ -11,7 +11,7 @@ from meshforge.common import AssetError, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_output, xml
 from meshforge.formats.link_reader import CollisionMeshes, geometry_of
 from meshforge.formats.references import reference_of
-from meshforge.geometry import Piece, Polytope, Pose, Shape
+from meshforge.geometry import Floats, Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 _MADE_UP = re.compile(r"geom\d+(#\d+)?(@\d+)?(~\d+)*")  # what a collision without a name is called, and hulls after it
@@ -73,12 +73,20 @@ class ElementMaker(ABC):
         """Return the pose of a shape that the format has of its own, and its lines without that; None for others."""
 
     @abstractmethod
-    def mesh_lines(self, reference: str) -> list[bytes]:
-        """Return the lines of a mesh file in metres."""
+    def mesh_lines(self, reference: str, scale: Floats | None = None) -> list[bytes]:
+        """Return the lines of a mesh file in metres, which factors (3,) may scale."""
 
     @abstractmethod
+    def pose_tag(self, pose: Pose) -> bytes:
+        """Return the element of a pose, its numbers in full precision."""
+
+    def geometry_lines(self, pose: Pose, kind: Sequence[bytes]) -> list[bytes]:
+        """Return the lines of a pose and of a geometry, whose own lines are `kind`."""
+        return [self.pose_tag(pose), *xml.nest("geometry", *kind)]
+
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
         """Return a `<collision>` without a name, whose lines but the first are indented by `lead`."""
+        return (xml.newline_of(self.data) + lead).join(xml.nest("collision", *self.geometry_lines(pose, kind)))
 
     @abstractmethod
     def replace_geometry(
@@ -171,7 +179,7 @@ class ElementEdits:
         """All collision elements in the order of the output."""
         by_link: dict[str, list[OutputElement]] = {name: [] for name in self.links}
         for (_, outputs), authored in zip(self.places, self.authored, strict=True):
-            by_link[authored.link] += outputs
+            by_link[authored.body] += outputs
         for link, outputs in self.ends.items():
             by_link[link] += outputs
         return [output for outputs in by_link.values() for output in outputs]
@@ -189,17 +197,17 @@ class ElementEdits:
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
-                outputs = [OutputElement(authored.link, authored.names, element.attributes.get("name"), element)]
+                outputs = [OutputElement(authored.body, authored.names, element.attributes.get("name"), element)]
             else:
                 outputs = []  # an element for each piece, its triangles as authored in a file of their own
                 for k, name in staying.items():
                     edits, old = self.maker.extract_piece(element, name, k), element.attributes.get("name")
-                    outputs.append(OutputElement(authored.link, (name,), old, element, edits, copy=bool(outputs)))
+                    outputs.append(OutputElement(authored.body, (name,), old, element, edits, copy=bool(outputs)))
             self.places.append((element, outputs))
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
-        own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
+        own = [k for k, authored in enumerate(self.authored) if authored.body == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
         lead = child_indent_of(self.maker.data, self.links[geom.body])

@@ -64,15 +64,6 @@ def clean_name(name: str, not_taken: str) -> str:
     return name.strip() or "part"
 
 
-def claim_name(named: Callable[[str], str], wanted: str, taken: set[str]) -> str:
-    """Return what `named` makes of a name, with a number where that is taken (lower case); it is taken from then on."""
-    name, number = named(wanted), 2
-    while name.lower() in taken:
-        name, number = named(f"{wanted}-{number}"), number + 1
-    taken.add(name.lower())
-    return name
-
-
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
     """Return how a scene has what names do not say."""
     triangles = {what: "written as triangles" for what in PRIMITIVE_FEATURES.values() if what not in names.holds}

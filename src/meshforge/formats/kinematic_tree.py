@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,14 +10,16 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats.base import Loss
 from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.formats.xml import parse_numbers
-from meshforge.geometry import Floats, Pose
+from meshforge.formats.xml import format_numbers, parse_numbers
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
 from meshforge.symbolic import Asset, FeatureKind, Inertial, Joint, JointKind, unique_names
 
 LIGHT_INERTIAL = Inertial("", 1e-6, np.zeros(3), 1e-9 * np.eye(3))
 """The mass of a link that stands for none, above what engines refuse."""
 TENSOR_NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """What URDF and SDF call the six numbers of an inertia, those on and above its diagonal."""
+LinkShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
+"""The shapes that SDF has of its own, the round ones from 1.8 on; URDF has but some of them."""
 COMMON_KINDS: Mapping[str, JointKind] = {
     "fixed": "fixed", "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"
 }  # fmt: skip
@@ -74,12 +76,17 @@ class BodyTree:
         return [name for name in self.order if not self.joints[name]]
 
 
-def claim_name(wanted: str, taken: set[str]) -> str:
-    """Return a name that is not taken: the wanted one, or with a number behind it; it is taken from then on."""
-    name, number = wanted, 2
-    while name in taken:
-        name, number = f"{wanted}_{number}", number + 1
-    taken.add(name)
+def claim_name(
+    wanted: str, taken: set[str], named: Callable[[str], str] = str, fold: Callable[[str], str] = str, gap: str = "_"
+) -> str:
+    """Return what `named` makes of a name, with a number behind a gap where that is taken; it is taken from then on.
+
+    fold: what `taken` holds of a name, such as `str.lower`.
+    """
+    name, number = named(wanted), 2
+    while fold(name) in taken:
+        name, number = named(f"{wanted}{gap}{number}"), number + 1
+    taken.add(fold(name))
     return name
 
 
@@ -207,6 +214,18 @@ def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Float
     turn = root_t_link.rotation.T
     centre = turn @ (inertial.centre - root_t_link.translation)
     return centre, drop_rounding(turn @ inertial.inertia @ turn.T)
+
+
+def name_sizes(shape: LinkShape) -> dict[str, str]:
+    """Return the sizes [m] of a shape as URDF and SDF call them; a capsule has the length of the cylinder in it."""
+    match shape:
+        case Box():
+            return {"size": format_numbers(2 * shape.half)}
+        case Ellipsoid():
+            return {"radii": format_numbers(shape.radii)}
+        case Sphere():
+            return {"radius": format_numbers([shape.radius])}
+    return {"radius": format_numbers([shape.radius]), "length": format_numbers([2 * shape.half_length])}
 
 
 def name_moments(tensor: Floats) -> list[tuple[str, float]]:

@@ -3,10 +3,12 @@
 from abc import ABC, abstractmethod
 from types import UnionType
 
-from meshforge.formats import base, conversion, element_edits, kinematic_tree, mesh_output
+import numpy as np
+
+from meshforge.formats import base, conversion, element_edits, kinematic_tree, mesh_output, xml
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, NonConvexPiece, Rgba, Surface
 
 
 class LinkCreator(ABC):
@@ -50,6 +52,22 @@ class LinkCreator(ABC):
     def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
         """Return the collision of an endless plane; none where the format has none."""
         return []
+
+    @abstractmethod
+    def color_lines(self, rgba: Rgba) -> list[bytes]:
+        """Return the lines of the colour of a visual."""
+
+    def visual_lines(self, visual: mesh_output.LinkVisual, **attributes: str) -> list[bytes]:
+        """Return the lines of a `<visual>`."""
+        if isinstance(visual.what, str):
+            scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
+            pose, kind = visual.pose, self.maker.mesh_lines(visual.what, scale)
+        else:
+            native = self.maker.native_lines(visual.what)
+            assert native is not None  # a file is made for every shape that is not native
+            pose, kind = native
+        color = self.color_lines(visual.rgba) if visual.rgba else []
+        return xml.nest("visual", *self.maker.geometry_lines(pose, kind), *color, **attributes)
 
     def inertial_of(self, link: str) -> tuple[Inertial | None, Pose]:
         """Return the mass of a link, and the frame of the link as the mass has it."""

@@ -51,10 +51,7 @@ class HullFiles:
     def add(self, name: str, folder: str, vertices: Floats, faces: Ints) -> str:
         """Make the file of a hull in a folder that `folder_of` gives; the reference to it."""
         safe = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{self.stem}--{name}")[:_LONGEST].strip("._") or "hull"
-        stem, number = safe, 2
-        while stem.lower() in self.taken:
-            stem, number = f"{safe}_{number}", number + 1
-        self.taken.add(stem.lower())
+        stem = kinematic_tree.claim_name(safe, self.taken, fold=str.lower)
         reference = f"{folder}{stem}.obj"
         self.made[self._placement_of(reference) or f"{stem}.obj"] = format_obj_rows(vertices, faces)
         return reference

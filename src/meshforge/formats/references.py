@@ -169,6 +169,23 @@ def add_copy(copies: dict[str, Path], place: str, path: Path, remedy: str = "Ren
         copies.setdefault(posixpath.normpath(posixpath.join(posixpath.dirname(place), key)), companion)
 
 
+def collect_copies(
+    found: Iterable[tuple[str, str | None, Path | None]], remedy: str
+) -> tuple[dict[str, Path], list[str]]:
+    """Return the files of an output by their places, and notes on those that stay where they are.
+
+    found: each reference with its place, None for an absolute one, and its file, None for one that is made or missing.
+    Raises AssetError where two files would become one.
+    """
+    copies, notes = dict[str, Path](), list[str]()
+    for reference, place, path in found:
+        if path is not None and place is not None:
+            add_copy(copies, place, path, remedy)
+        elif path is not None:
+            notes.append(note_absolute(reference))
+    return copies, notes
+
+
 def note_absolute(reference: str) -> str:
     """Return the note on a file that is not copied."""
     return f"{reference!r} is an absolute reference: the file is used where it is, not copied"

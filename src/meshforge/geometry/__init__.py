@@ -27,7 +27,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "proximity": "close_pairs distance",
         "round_shapes": "Capsule Cylinder Ellipsoid Sphere",
-        "shape": "Box Polytope Shape digest is_same_shape",
+        "shape": "Box Polytope Shape digest is_same_shape split_scaled_rotation",
         "simplify": "Enclosure HullBudget enclose",
         "solidity": "HullFault describe_fault find_fault",
         "solids": "combine_inertias cut inertia overlap_volume principal_axes volume_of_union",

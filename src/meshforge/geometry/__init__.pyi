@@ -73,6 +73,7 @@ from meshforge.geometry.shape import Polytope as Polytope
 from meshforge.geometry.shape import Shape as Shape
 from meshforge.geometry.shape import digest as digest
 from meshforge.geometry.shape import is_same_shape as is_same_shape
+from meshforge.geometry.shape import split_scaled_rotation as split_scaled_rotation
 from meshforge.geometry.simplify import Enclosure as Enclosure
 from meshforge.geometry.simplify import HullBudget as HullBudget
 from meshforge.geometry.simplify import enclose as enclose

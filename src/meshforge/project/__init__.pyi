@@ -34,7 +34,6 @@ from meshforge.project.run import run_with_manual_edits as run_with_manual_edits
 from meshforge.project.run_report import add_result_status as add_result_status
 from meshforge.project.run_report import build_run_report as build_run_report
 from meshforge.project.run_report import format_review as format_review
-from meshforge.project.run_report import format_result_status as format_result_status
 from meshforge.project.run_report import format_status as format_status
 from meshforge.project.run_report import summarize_outputs as summarize_outputs
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
@@ -54,5 +53,4 @@ from meshforge.project.status import LearnStatus as LearnStatus
 from meshforge.project.status import OpenQuestion as OpenQuestion
 from meshforge.project.status import OutputState as OutputState
 from meshforge.project.status import PropagationState as PropagationState
-from meshforge.project.status import SignOffState as SignOffState
 from meshforge.project.status import Status as Status

@@ -190,7 +190,7 @@ def _learn(state: FamilyState) -> NextStep | None:
 
 
 def _label_new_assets(state: FamilyState) -> NextStep | None:
-    bare = [a for a in state.assets if a.hulls and not a.labelled and not a.is_done and not a.excluded]
+    bare = [a for a in state.assets if a.hulls and not a.labelled and not a.is_done and not a.result_status.excluded]
     if not state.asks_labels or not bare:
         return None
     why = f"{_count_assets(bare, 'has', 'have')} no label"
@@ -218,7 +218,7 @@ def _answer(state: FamilyState) -> NextStep | None:
 
 
 def _apply(state: FamilyState) -> NextStep | None:
-    counted = [asset for asset in state.assets if not asset.excluded]
+    counted = [asset for asset in state.assets if not asset.result_status.excluded]
     behind = [a for a in counted if not a.is_done and (a.output != "failed" or a.stale)]
     if any(asset.hulls is not None for asset in behind):
         return _step(
@@ -233,25 +233,25 @@ def _apply(state: FamilyState) -> NextStep | None:
 
 
 def _review(state: FamilyState) -> NextStep | None:
-    wrong = [asset for asset in state.assets if asset.review == "wrong" and not asset.excluded]
+    wrong = [asset for asset in state.assets if asset.review == "wrong" and not asset.result_status.excluded]
     if wrong:
         text = f"{pluralize(len(wrong), 'result')} wrong: correct them, first {wrong[0].id}."
         return _step(state, "review", text, "review", wrong[0].id)
-    left = [asset for asset in state.assets if asset.needs_review]
+    left = [asset for asset in state.assets if asset.result_status.needs_review]
     if not left:
         return None
     best = [asset for asset in (state.last_run.sample if state.last_run else ()) if asset in {one.id for one in left}]
-    if best and all(asset.probability is None for asset in left):
+    if best and all(asset.result_status.probability is None for asset in left):
         what = pluralize(len(best), "result that shows", "results that show")
         text = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
         return _step(state, "review", text, "review", best[0])
-    least = min(left, key=lambda asset: asset.probability if asset.probability is not None else -1.0)
+    least = min(left, key=lambda asset: asset.result_status.confidence)
     return _step(state, "review", f"{_count_open(state)}: look at them, first {least.id}.", "review", least.id)
 
 
 def _count_open(state: FamilyState) -> str:
-    need = sum(asset.needs_review for asset in state.assets)
-    every = pluralize(sum(not asset.excluded for asset in state.assets), "result")
+    need = sum(asset.result_status.needs_review for asset in state.assets)
+    every = pluralize(sum(not asset.result_status.excluded for asset in state.assets), "result")
     return f"{need} of {every} {'needs' if need == 1 else 'need'} review"
 
 
@@ -261,7 +261,7 @@ def _end(state: FamilyState) -> NextStep:
         text = f"{len(flagged)} {what} flagged: edit by hand, first {flagged[0]}."
         return _step(state, "correct", text, "studio", flagged[0])
     edited = quote_path(Layout(state.folder).edited)
-    count = pluralize(sum(not asset.excluded for asset in state.assets), "result")
+    count = pluralize(sum(not asset.result_status.excluded for asset in state.assets), "result")
     return NextStep("export", f"{count} signed off: check and export.", None, f"meshforge check {edited}")
 
 

@@ -14,7 +14,7 @@ from meshforge.labels import HullSpan, pick_evenly
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.rebuild import MOST_SHOWN, RebuiltBody
 from meshforge.project.review import ProjectReview
-from meshforge.signoff import AssetConfidence, Reason, ReviewState, assess_asset
+from meshforge.signoff import Reason, ResultStatus, ReviewState, assess_asset
 from meshforge.store import Store
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
@@ -138,7 +138,7 @@ def assess_new_assets(
     jobs: Sequence[batch.AssetJob],
     results: Mapping[str, NewAssetResult],
     execution: batch.ExecutionOptions,
-) -> dict[str, AssetConfidence]:
+) -> dict[str, ResultStatus]:
     """Return how probable the edits of assets are that were prepared beside a project, each by itself, by id.
 
     results: what was guessed of them: an edit is at most as sure as that a body which was rebuilt has a hull that
@@ -147,11 +147,11 @@ def assess_new_assets(
     """
     task = _Task(_choose_state(review.state), review.outcome, store.settings.thresholds.contact)
     new = [job for job in jobs if job.id in results]
-    found = dict[str, AssetConfidence]()
+    found = dict[str, ResultStatus]()
     for job, one in zip(new, batch.execute(partial(_assess, task), new, execution), strict=True):
         if isinstance(one, batch.WorkerFailure):
             one = _describe_failure(one.why)
-        found[job.id] = replace(one.with_reasons(results[job.id].span_reasons), asset=job.id)
+        found[job.id] = one.with_reasons(results[job.id].span_reasons)
     return found
 
 
@@ -164,7 +164,7 @@ def _choose_state(state: ReviewState) -> ReviewState:
     return replace(state, meshes=meshes, accepted=frozenset(accepted))
 
 
-def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
+def _assess(task: _Task, job: batch.AssetJob) -> ResultStatus:
     try:
         mesh = batch.read_job(job)
         mesh = mesh if task.contact is None else replace(mesh, epsilon=task.contact)
@@ -174,5 +174,5 @@ def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
         return _describe_failure(describe_error(error, str(job.path)))
 
 
-def _describe_failure(why: str) -> AssetConfidence:
-    return AssetConfidence(_NEW, 0.0, (Reason("alarm", f"it could not be looked at: {why}", share=1.0),))
+def _describe_failure(why: str) -> ResultStatus:
+    return ResultStatus(0.0, (Reason("alarm", f"it could not be looked at: {why}", share=1.0),))

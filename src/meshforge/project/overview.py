@@ -12,8 +12,8 @@ from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_inputs, find_bases
-from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, SignOffState, Status
-from meshforge.signoff import THRESHOLD, ExclusionReason
+from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, Status
+from meshforge.signoff import THRESHOLD, ExclusionReason, ResultState, ResultStatus
 from meshforge.store import (
     AssessmentFile,
     AssetFacts,
@@ -108,7 +108,7 @@ def compute_status(
 
 
 def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQuestion | None:
-    if not state.question or all(asset.is_done or asset.excluded for asset in assets):
+    if not state.question or all(asset.is_done or asset.result_status.excluded for asset in assets):
         return None
     rule, _, asset = state.question.partition(":")
     return OpenQuestion("other", asset, f" about rule {rule} on {asset}, or apply the program as it is")
@@ -226,22 +226,22 @@ class ResultStatuses:
     last: AssessmentFile | None
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
-        """Return an asset with how it stands."""
+        """Return an asset with how it status."""
         line = self.last.assets.get(asset.id) if self.last else None
         sign_off = self.signed.get(asset.id)
         void = self._find_void(asset, sign_off)
         state = self._find_state(asset, line, bool(sign_off), bool(void))
         by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
-        return replace(
-            asset,
-            sign_off=state,
-            signed_by=by if state == "signed off" else None,
-            void=void if state == "void" else (),
-            found_since=self._find_news(line) if state == "signed off" else (),
-            excluded=self.exclusions.get(asset.id),
+        result_status = ResultStatus(
             probability=line.probability if line else None,
             reasons=line.reasons if line else (),
+            state=state,
+            by=by if state == "signed off" else None,
+            void=void if state == "void" else (),
+            excluded=self.exclusions.get(asset.id),
+            found_since=self._find_news(line) if state == "signed off" else (),
         )
+        return replace(asset, result_status=result_status)
 
     def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:
         """What changed of all that a sign-off rests on, or, where there is none, since a person accepted the result."""
@@ -252,7 +252,7 @@ class ResultStatuses:
 
     def _find_state(
         self, asset: AssetStatus, line: ConfidenceLine | None, is_signed: bool, is_void: bool
-    ) -> SignOffState:
+    ) -> ResultState:
         if asset.id in self.exclusions:
             return "excluded"
         verdict = self.feedback.verdict_on(asset.id)

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from meshforge import batch
 from meshforge.common import format_share, join_names
-from meshforge.project.status import AssetStatus, Status
-from meshforge.signoff import AssetConfidence, ExclusionReason
+from meshforge.project.status import Status
+from meshforge.signoff import ExclusionReason, ResultStatus
 from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
     one = found.assessment
     names = one.need_review
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
-    lines += _format_assets([_to_line(one.assets[name]) for name in names], need_review, " (all with --json)")
+    lines += _format_assets([(name, one.assets[name]) for name in names], need_review, " (all with --json)")
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or say what is right there."
@@ -59,46 +59,30 @@ def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
 
 def format_status(found: Status) -> str:
     """Return how far a project is signed off by its last review, and what is not, the least sure first."""
-    waits = found.count(lambda asset: asset.sign_off == "sure")
-    done = waits + found.count(lambda asset: asset.sign_off == "signed off")
-    excluded = [asset.excluded for asset in found.assets if asset.excluded] + [NOT_OF_FAMILY] * len(found.not_of_family)
+    waits = found.count(lambda asset: asset.result_status.state == "sure")
+    done = waits + found.count(lambda asset: asset.result_status.state == "signed off")
+    excluded = [asset.result_status.excluded for asset in found.assets if asset.result_status.excluded]
+    excluded += [NOT_OF_FAMILY] * len(found.not_of_family)
     lines = [format_counts(done, len(found.assets), len(found.open_assets), excluded, found.threshold)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    lines += _format_assets([_status_to_line(asset) for asset in found.open_assets], MOST_LISTED)
-    doubted = [_AssetReason(one.id, None, format_result_status(one)) for one in found.assets if one.found_since]
+    lines += _format_assets([(asset.id, asset.result_status) for asset in found.open_assets], MOST_LISTED)
+    doubted = [(asset.id, asset.result_status) for asset in found.assets if asset.result_status.found_since]
     return "\n".join([*lines, *_format_assets(doubted, MOST_LISTED)])
 
 
-@dataclass(frozen=True, slots=True)
-class _AssetReason:
-    """An asset that needs review, and its weightiest reason; probability: that its edit is right, None where not
-    known."""
-
-    name: str
-    probability: float | None
-    reason: str
-
-
-def _to_line(one: AssetConfidence) -> _AssetReason:
-    return _AssetReason(one.asset, one.probability, one.reasons[0].text if one.reasons else "")
-
-
-def _status_to_line(asset: AssetStatus) -> _AssetReason:
-    if asset.probability is None or asset.void:
-        return _AssetReason(asset.id, None, format_result_status(asset))
-    return _to_line(AssetConfidence(asset.id, asset.probability, asset.reasons))
-
-
-def _format_assets(need_review: Sequence[_AssetReason], most: int, rest: str = "") -> Iterator[str]:
+def _format_assets(need_review: Sequence[tuple[str, ResultStatus]], most: int, rest: str = "") -> Iterator[str]:
     """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
-    reasons: dict[str, list[_AssetReason]] = {}
-    for one in need_review:
-        reasons.setdefault(one.reason, []).append(one)
+    reasons: dict[str, list[tuple[str, float | None]]] = {}
+    for name, one in need_review:
+        if one.probability is None or one.void or one.found_since:
+            reasons.setdefault(one.describe(), []).append((name, None))
+        else:
+            reasons.setdefault(one.reasons[0].text if one.reasons else "", []).append((name, one.probability))
     for reason, some in list(reasons.items())[:most]:
-        shares = [one.probability for one in some if one.probability is not None]
-        share = f" ({_format_range(shares)})" if shares else ""
-        yield f"  {join_names([one.name for one in some])}{share}{': ' if reason else ''}{reason}"
+        shares = [share for _, share in some if share is not None]
+        told = f" ({_format_range(shares)})" if shares else ""
+        yield f"  {join_names([name for name, _ in some])}{told}{': ' if reason else ''}{reason}"
     more = sum(map(len, list(reasons.values())[most:]))
     if more:
         yield f"  and {more} more{rest}"
@@ -106,20 +90,6 @@ def _format_assets(need_review: Sequence[_AssetReason], most: int, rest: str = "
 
 def _format_range(shares: Sequence[float]) -> str:
     return " to ".join(dict.fromkeys(map(format_share, (min(shares), max(shares)))))
-
-
-def format_result_status(asset: AssetStatus) -> str:
-    """Return how one asset stands: how sure its result is, and whether it is signed off, and by whom."""
-    if asset.sign_off == "void":
-        return f"void, {join_names(asset.void)} changed since it was signed off"
-    if asset.sign_off == "unknown":
-        return "not looked at as it is now (meshforge review)"
-    share = "" if asset.probability is None else f"{format_share(asset.probability)} sure, "
-    if asset.sign_off == "sure":
-        return f"{share}signed off when its output is up to date (meshforge apply)"
-    who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
-    since = f"; found since: {'; '.join(asset.found_since)}" if asset.found_since else ""
-    return f"{share}{asset.sign_off}{who}{since}"
 
 
 _NOT_WRITTEN = "Nothing was written: this is what the program would make of it."
@@ -166,7 +136,7 @@ def build_run_report(
     `execution.stop` says so.
     """
     found = project.status()
-    result_statuses = Counter(map(word_of, found.assets))
+    result_statuses = Counter(asset.result_status.word for asset in found.assets)
     figures = replace(
         batch.RunFigures.of_run(summary), first="those that failed or need review", result_statuses=result_statuses
     )
@@ -189,22 +159,15 @@ def add_result_status(
 ) -> list[batch.ReportAsset]:
     """Return the assets of a project with how sure each result is; alarms of the run take the place of those of a
     review."""
-    known = {asset.id: asset for asset in found.assets}
+    known = {asset.id: asset.result_status for asset in found.assets}
     return [_add_result_status(asset, known[asset.name], asset.name in not_written) for asset in assets]
 
 
-def _add_result_status(shown: batch.ReportAsset, asset: AssetStatus, is_not_written: bool) -> batch.ReportAsset:
-    alarms = tuple(reason.text for reason in asset.reasons if reason.kind == "alarm")
-    reasons = tuple(reason.text for reason in asset.reasons if reason.kind != "alarm")
-    result_status = batch.ResultStatus(word_of(asset), format_result_status(asset), asset.probability, reasons)
+def _add_result_status(shown: batch.ReportAsset, found: ResultStatus, is_not_written: bool) -> batch.ReportAsset:
+    shown = replace(shown, result_status=found)
     if shown.error:
-        return replace(shown, result_status=result_status)
+        return shown
     if is_not_written:
         shown = replace(shown, status="not written", notes=(_NOT_WRITTEN, *shown.notes))
-    return replace(shown, result_status=result_status, alarms=shown.alarms or alarms)
-
-
-def word_of(asset: AssetStatus) -> batch.ResultStatusWord:
-    """Return how an asset of a project stands, in a word."""
-    state = asset.sign_off
-    return "needs review" if state == "needs review" or state == "void" or state == "unknown" else state
+    alarms = tuple(reason.text for reason in found.reasons if reason.kind == "alarm")
+    return replace(shown, alarms=shown.alarms or alarms)

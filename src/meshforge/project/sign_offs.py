@@ -122,7 +122,13 @@ def keep_assessment(
     if basis != AssessmentBasis(digest_inputs(store), find_inputs(store, execution)):
         return False
     lines = {
-        name: ConfidenceLine.of(one, basis.inputs[name], name in found.looked_at, measures.get(name))
+        name: ConfidenceLine(
+            probability=one.confidence,
+            reasons=one.reasons,
+            rests_on=basis.inputs[name],
+            looked_at=name in found.looked_at,
+            measures=measures.get(name),
+        )
         for name, one in found.assets.items()
         if name in basis.inputs
     }

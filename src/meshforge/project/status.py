@@ -5,13 +5,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from meshforge import labels, rendering, signoff, symbolic
+from meshforge import labels, rendering, symbolic
 from meshforge.project.next_step import NextStep
-from meshforge.signoff import THRESHOLD
+from meshforge.signoff import THRESHOLD, ResultStatus
 
-SignOffState = Literal["signed off", "sure", "needs review", "void", "excluded", "unknown"]
-"""Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
-unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
 LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"]
 SOURCE_WORDS: dict[str, str] = {
@@ -38,9 +35,7 @@ class AssetStatus:
     names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
-    sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; excluded: why it is given
-    up; probability, doubts: of its edit, as of the last review where nothing changed since, else None; found_since:
-    doubts that were found after it was signed off, which stays so until a person answers.
+    result_status: whether it is signed off, and how sure its edit is as of the last review where nothing changed since.
     """
 
     id: str
@@ -63,13 +58,7 @@ class AssetStatus:
     output_digest: str | None = None
     manual_edits: int = 0
     review_note: str | None = None
-    sign_off: SignOffState = "unknown"
-    signed_by: Literal["tool", "person"] | None = None
-    void: tuple[str, ...] = ()
-    excluded: signoff.ExclusionReason | None = None
-    found_since: tuple[str, ...] = ()
-    probability: float | None = None
-    reasons: tuple[signoff.Reason, ...] = ()
+    result_status: ResultStatus = field(default_factory=ResultStatus)
 
     @property
     def confidence(self) -> tuple[int, ...]:
@@ -83,11 +72,6 @@ class AssetStatus:
         return sum(NO_LABEL < sure < _HALF for sure in self.confidence)
 
     @property
-    def needs_review(self) -> bool:
-        """Whether it is to be looked at: neither sure enough nor excluded."""
-        return self.sign_off in ("needs review", "void", "unknown")
-
-    @property
     def is_done(self) -> bool:
         """Whether its output is there and up to date."""
         return self.output in ("edited", "unchanged") and not self.stale
@@ -96,14 +80,19 @@ class AssetStatus:
         """Return it as `status` says it in JSON."""
         names = (
             *("hulls", "sources", "prepared", "labelled", "doubtful", "demonstrated", "output", "stale", "error"),
-            *("flags", "review", "sign_off", "signed_by", "void", "excluded", "found_since"),
+            *("flags", "review"),
         )
-        return {"asset": self.id, **{name: getattr(self, name) for name in names}, **self.confidence_to_json()}
-
-    def confidence_to_json(self) -> dict[str, Any]:
-        """Return how sure its edit is, as `status`, `apply` and `info` say it in JSON."""
-        share = None if self.probability is None else round(self.probability, 4)
-        return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
+        status = self.result_status
+        return {
+            "asset": self.id,
+            **{name: getattr(self, name) for name in names},
+            "sign_off": status.state,
+            "signed_by": status.by,
+            "void": status.void,
+            "excluded": status.excluded,
+            "found_since": status.found_since,
+            **status.to_json(),
+        }
 
 
 def _percent_of(label: symbolic.Label | None) -> int:
@@ -197,20 +186,18 @@ class Status:
     @property
     def open_assets(self) -> tuple[AssetStatus, ...]:
         """Those to be looked at: neither sure enough nor excluded, the least probable first."""
-        some = [asset for asset in self.assets if asset.needs_review]
-        return tuple(
-            sorted(some, key=lambda asset: (-1.0 if asset.probability is None else asset.probability, asset.id))
-        )
+        some = [asset for asset in self.assets if asset.result_status.needs_review]
+        return tuple(sorted(some, key=lambda asset: (asset.result_status.confidence, asset.id)))
 
     @property
     def is_signed_off(self) -> bool:
         """Whether every asset of the family is signed off, and there is one."""
-        return bool(self.assets) and all(asset.sign_off == "signed off" for asset in self.assets)
+        return bool(self.assets) and all(asset.result_status.state == "signed off" for asset in self.assets)
 
     @property
     def is_signed_off_but_unsolved(self) -> bool:
         """Whether every asset of the family is signed off or given up, and some are signed off."""
-        states = {asset.sign_off for asset in self.assets}
+        states = {asset.result_status.state for asset in self.assets}
         return "signed off" in states and states <= {"signed off", "excluded"}
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
@@ -226,7 +213,7 @@ class Status:
             "outdated": self.outdated,
             "question": self.question,
             "problem": self.problem,
-            "signed_off": self.count(lambda asset: asset.sign_off == "signed off"),
+            "signed_off": self.count(lambda asset: asset.result_status.state == "signed off"),
             "assets": [asset.to_json() for asset in self.assets],
             "lost": list(self.lost),
             "not_of_family": list(self.not_of_family),

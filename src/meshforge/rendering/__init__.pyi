@@ -24,11 +24,7 @@ from meshforge.rendering.comparison import draw_before_after as draw_before_afte
 from meshforge.rendering.comparison import draw_changes as draw_changes
 from meshforge.rendering.comparison import draw_difference as draw_difference
 from meshforge.rendering.comparison import draw_heat_map as draw_heat_map
-from meshforge.rendering.comparison import draw_turn as draw_turn
 from meshforge.rendering.comparison import draw_volumes as draw_volumes
-from meshforge.rendering.comparison import encode_gif as encode_gif
-from meshforge.rendering.comparison import list_turns as list_turns
-from meshforge.rendering.comparison import write_gif as write_gif
 from meshforge.rendering.id_buffer import ThumbnailPixels as ThumbnailPixels
 from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail

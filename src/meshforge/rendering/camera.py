@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
@@ -45,7 +44,6 @@ _EYE_DIRECTIONS: dict[View, tuple[float, float, float]] = {
 The two called iso see in perspective, all others orthographically.
 """
 _DISTANCE = 3.4  # of the eye in a perspective view, in diagonals: strong enough to read depth, too weak to distort
-_ORBIT_STEPS = 48  # places on a circle at which what turns must fit into the picture
 _MARGIN = 0.06  # free border on every side, as a share of the picture
 
 _Z_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
@@ -114,27 +112,6 @@ def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats) -> Cam
     room = np.array(size) * (1 - 2 * _MARGIN)
     scale = float(np.max((high - low) / room)) or 1.0 / min(size)
     return Camera(axes, eye, (low + high) / 2, scale, size)
-
-
-def aim_orbit(turns: Sequence[float], up: Up, size: tuple[int, int], points: Floats) -> list[Camera]:
-    """Return cameras on a circle about points (n, 3), all at the height and distance of the view `iso`.
-
-    turns: places on it, 0 is `iso`, 1 once round; points: as for `aim_camera`.
-    All cameras have the same scale and centre, so that what turns stands still.
-    """
-
-    def look(turn: float) -> Camera:
-        sine, cosine = np.sin(2 * np.pi * turn), np.cos(2 * np.pi * turn)
-        x, y, z = _EYE_DIRECTIONS["iso"]
-        axes = _axes_towards(np.array([cosine * x - sine * y, sine * x + cosine * y, z]), up)
-        return Camera(axes, axes[2] * _DISTANCE, np.zeros(2), 1.0, size)
-
-    places = np.concatenate([look(turn).project(points) for turn in np.linspace(0, 1, _ORBIT_STEPS, endpoint=False)])
-    (_, low), (_, high) = places.min(axis=0), places.max(axis=0)
-    extent = np.array([2 * np.abs(places[:, 0]).max(), high - low])  # the axis that it turns about is in the middle
-    scale = float(np.max(extent / (np.array(size) * (1 - 2 * _MARGIN)))) or 1.0 / min(size)
-    middle = np.array([0.0, (low + high) / 2])
-    return [replace(look(turn), middle=middle, scale=scale) for turn in turns]
 
 
 def axes_of(view: View, up: Up) -> Floats:

@@ -1,4 +1,4 @@
-"""Pictures of an edit, before and after; of measurements: bands of colour, space within pale hulls; and turntables."""
+"""Pictures of an edit, before and after; and of measurements: bands of colour, space within pale hulls."""
 
 from __future__ import annotations
 
@@ -6,22 +6,19 @@ import itertools
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from io import BytesIO
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from meshforge.common import UsageError, pluralize
+from meshforge.common import pluralize
 from meshforge.geometry import Aabb, Floats, Ints, Shape
 from meshforge.rendering import colors as palette
 from meshforge.rendering import picture
-from meshforge.rendering.camera import Up, View, aim_orbit
-from meshforge.rendering.canvas import Canvas, make_contact_sheet, write_file
+from meshforge.rendering.camera import Up, View
+from meshforge.rendering.canvas import Canvas, make_contact_sheet
 from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, label_colors, rgb
-from meshforge.rendering.paint import paint
 from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, points_to_frame
-from meshforge.rendering.raycast import DrawLayer, ViewFrame, up_vector
+from meshforge.rendering.raycast import DrawLayer
 from meshforge.rendering.scene import to_render_mesh
 from meshforge.symbolic import Surface, SymbolicMesh, find_unchanged
 
@@ -198,58 +195,3 @@ def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tupl
     pale = DrawLayer(shells, np.tile(rgb(palette.UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
     subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), picture.up_axis(mesh))
     return _draw(subject, size, title=title, legend=legend)
-
-
-FRAMES = 24
-"""Pictures of one turn."""
-FRAME_MILLISECONDS = 110
-_BACKGROUND = "#FFFFFF"  # even, since a GIF has few colours
-_FINE = 2  # rays a pixel, along each side
-_COLORS = 255
-_SAMPLES = 4  # pictures of a turn that its colours are chosen from
-
-
-def draw_turn(mesh: SymbolicMesh, turns: Sequence[float], *, size: tuple[int, int], color_by: ColorBy) -> list[Image]:
-    """Return a picture of a mesh for each turn, all of `size`; 0 is the view `iso`, 1 is once round."""
-    subject = build_subject(mesh, color_hulls(mesh, color_by))
-    bounds = joint_bounds(mesh) or Aabb([-1, -1, -1], [1, 1, 1])
-    frame = ViewFrame(bounds, up_vector(subject.up))
-    pictures = []
-    for camera in aim_orbit(turns, subject.up, size, frame.to_unit(bounds.corners)):
-        canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
-        canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
-        if not subject.layers[0].render_meshes:
-            canvas.write_message("no hulls", canvas.room)
-        pictures.append(canvas.image)
-    return pictures
-
-
-def list_turns(frames: int = FRAMES) -> list[float]:
-    """Return the turns of so many pictures."""
-    return [number / frames for number in range(frames)]
-
-
-def encode_gif(frames: Sequence[Image]) -> bytes:
-    """Return pictures of equal size as a GIF that begins anew for ever; the same pictures give the same bytes.
-
-    Raises UsageError where there is none.
-    """
-    from PIL import Image  # lazy: 0.01 s, only pictures need it
-
-    if not frames:
-        raise UsageError("a GIF of no pictures cannot be made")
-    width, height = frames[0].size
-    some = [frames[k * len(frames) // _SAMPLES] for k in range(min(_SAMPLES, len(frames)))]
-    sheet = Image.new("RGB", (width, height * len(some)))
-    for place, image in enumerate(some):
-        sheet.paste(image, (0, place * height))
-    palette = sheet.quantize(_COLORS, method=Image.Quantize.MEDIANCUT)  # one for all: none flickers
-    first, *others = [image.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE) for image in frames]
-    stream = BytesIO()
-    first.save(stream, "GIF", save_all=True, append_images=others, duration=FRAME_MILLISECONDS, loop=0, optimize=False)
-    return stream.getvalue()
-
-
-def write_gif(path: Path, frames: Sequence[Image]) -> None:
-    """Write pictures as a GIF. Raises UsageError where it cannot be written."""
-    write_file(path, encode_gif(frames))

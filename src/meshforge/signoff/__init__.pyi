@@ -1,10 +1,12 @@
 # Written by `python -m script.stubs`.
 from meshforge.signoff.assessment import THRESHOLD as THRESHOLD
 from meshforge.signoff.assessment import Assessment as Assessment
-from meshforge.signoff.assessment import AssetConfidence as AssetConfidence
 from meshforge.signoff.assessment import Reason as Reason
 from meshforge.signoff.assessment import ReasonKind as ReasonKind
 from meshforge.signoff.assessment import ReviewState as ReviewState
+from meshforge.signoff.assessment import ResultStatus as ResultStatus
+from meshforge.signoff.assessment import ResultState as ResultState
+from meshforge.signoff.assessment import ResultStatusWord as ResultStatusWord
 from meshforge.signoff.outliers import EditMeasures as EditMeasures
 from meshforge.signoff.outliers import describe_outliers as describe_outliers
 from meshforge.signoff.outliers import measure_edit as measure_edit

@@ -14,6 +14,7 @@ from typing import Any, Literal, Self
 
 import numpy as np
 
+from meshforge.common import format_share, join_names
 from meshforge.geometry import Floats
 from meshforge.language import Program, Template
 from meshforge.signoff.question import ExclusionReason, ReviewQuestion, Selections
@@ -194,36 +195,78 @@ class Reason:
         return {"kind": self.kind, "text": self.text, "hulls": list(self.hulls), "rule": self.rule}
 
 
-@dataclass(frozen=True, slots=True)
-class AssetConfidence:
-    """One asset. probability: that its edit is right, in 0..1; doubts: the weightiest first."""
+ResultStatusWord = Literal["needs review", "sure", "signed off", "excluded"]
+"""Sure: sure enough to be signed off, once its output is up to date."""
+ResultState = ResultStatusWord | Literal["void", "unknown"]
+"""Void: signed off, but something changed since; unknown: not reviewed as it is now."""
 
-    asset: str
-    probability: float
+
+@dataclass(frozen=True, slots=True)
+class ResultStatus:
+    """How one asset status.
+
+    probability: that its edit is right, in 0..1, None where that is not known; reasons: why it may be wrong, the
+    weightiest first; state: whether it is signed off; by: by whom; void: what changed since it was; excluded: why it is
+    given up; found_since: what was found after it was signed off, which stays so until a person answers.
+    """
+
+    probability: float | None = None
     reasons: tuple[Reason, ...] = ()
+    state: ResultState = "unknown"
+    by: Literal["tool", "person"] | None = None
+    void: tuple[str, ...] = ()
+    excluded: ExclusionReason | None = None
+    found_since: tuple[str, ...] = ()
+
+    @property
+    def confidence(self) -> float:
+        """The probability, -1 where it is not known: what bars and orders compare."""
+        return -1.0 if self.probability is None else self.probability
+
+    @property
+    def word(self) -> ResultStatusWord:
+        """Its state, but that what is void or unknown needs review."""
+        return "needs review" if self.state == "void" or self.state == "unknown" else self.state
+
+    @property
+    def needs_review(self) -> bool:
+        """Whether it is to be looked at: neither sure enough nor excluded."""
+        return self.word == "needs review"
 
     def with_reasons(self, more: Iterable[Reason]) -> Self:
         """Return the same with further doubts: it is at most as probable as that the weightiest of them is none."""
         more = list(more)
-        probability = min([self.probability, *(1 - one.share for one in more)])
+        probability = min([self.confidence, *(1 - one.share for one in more)])
         reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]
         return replace(self, probability=probability, reasons=tuple(reasons))
 
+    def describe(self) -> str:
+        """Return how it stands in words: how sure its result is, and whether it is signed off, and by whom."""
+        if self.state == "void":
+            return f"void, {join_names(self.void)} changed since it was signed off"
+        if self.state == "unknown":
+            return "not looked at as it is now (meshforge review)"
+        share = "" if self.probability is None else f"{format_share(self.probability)} sure, "
+        if self.state == "sure":
+            return f"{share}signed off when its output is up to date (meshforge apply)"
+        who = {"tool": " by MeshForge", "person": " by a person", None: ""}[self.by]
+        since = f"; found since: {'; '.join(self.found_since)}" if self.found_since else ""
+        return f"{share}{self.state}{who}{since}"
+
     def to_json(self) -> dict[str, Any]:
-        return {
-            "probability": round(self.probability, _DIGITS),
-            "reasons": [reason.to_json() for reason in self.reasons],
-        }
+        """Return how sure its edit is, as `status`, `apply`, `review` and `info` say it in JSON."""
+        share = None if self.probability is None else round(self.probability, _DIGITS)
+        return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
 
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """A family as it stands. assets: by name, in the family's order; looked_at: those of which a person accepted the
+    """A family as it status. assets: by name, in the family's order; looked_at: those of which a person accepted the
     result, or said what it is; wrong: those of which they only said that it is wrong; excluded: those given up, those
     that are not of the family too; questions: all that could be asked now, what is worth most first.
     """
 
-    assets: Mapping[str, AssetConfidence]
+    assets: Mapping[str, ResultStatus]
     threshold: float = THRESHOLD
     looked_at: frozenset[str] = frozenset()
     wrong: frozenset[str] = frozenset()
@@ -242,13 +285,13 @@ class Assessment:
         return tuple(
             name
             for name, one in self.assets.items()
-            if name not in away and (name in self.looked_at or one.probability >= self.threshold)
+            if name not in away and (name in self.looked_at or one.confidence >= self.threshold)
         )
 
     @property
     def need_review(self) -> tuple[str, ...]:
         """The assets that need a person's review, the least probable first."""
-        rows = sorted((one.probability, name) for name, one in self.assets.items())
+        rows = sorted((one.confidence, name) for name, one in self.assets.items())
         done = {*self.signed_off, *self.excluded}
         return tuple(name for _, name in rows if name not in done)
 

@@ -8,7 +8,7 @@ from math import prod
 import numpy as np
 
 from meshforge.language import show
-from meshforge.signoff.assessment import MOST_REASONS, NO_EDIT, AssetConfidence, Reason, ReasonKind, ReviewState
+from meshforge.signoff.assessment import MOST_REASONS, NO_EDIT, Reason, ReasonKind, ResultStatus, ReviewState
 from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.program_run import RULE_OF_FRAME, AlternativeLabel, ProgramRun
 from meshforge.symbolic import is_class_name
@@ -28,14 +28,14 @@ _MOST_MISTRUST = 0.03  # in a program, above which it is told
 
 def judge_edits(
     state: ReviewState, outcome: LearningOutcome | None, family: FamilyRun | None, turned: Collection[str]
-) -> Iterator[tuple[str, AssetConfidence]]:
+) -> Iterator[tuple[str, ResultStatus]]:
     """Give how sure the edit of each asset is, with its doubts; turned: assets that may have to be turned first."""
     rows = [(asset, text) for asset, texts in state.unconfirmed.items() for text in texts]
     for place, name in enumerate((*state.meshes, *state.lost)):
         if why := state.lost.get(name):
-            one = AssetConfidence(name, 0.0, (Reason("alarm", f"it cannot be read: {why}", share=1.0),))
+            one = ResultStatus(0.0, (Reason("alarm", f"it cannot be read: {why}", share=1.0),))
         else:
-            one = judge_edit(family, place) if family else AssetConfidence(name, 0.0, (judge_learning(outcome),))
+            one = judge_edit(family, place) if family else ResultStatus(0.0, (judge_learning(outcome),))
         if name in turned:
             text = "it may have to be turned first, and would be edited otherwise then"
             one = one.with_reasons([Reason("orientation", text, share=SUGGESTION_RIGHT)])
@@ -54,19 +54,19 @@ def judge_learning(outcome: LearningOutcome | None) -> Reason:
     return Reason("candidate", getattr(outcome, "why", "no program was found"), share=1.0)
 
 
-def judge_edit(family: FamilyRun, place: int) -> AssetConfidence:
+def judge_edit(family: FamilyRun, place: int) -> ResultStatus:
     """Return how sure the edit of the asset at a place is, with its doubts."""
     run, state = family.runs[place], family.state
     asset = run.asset
     if run.error and asset not in state.accepted:
         kind: ReasonKind = "label" if run.meshes else "orientation"
-        return _refuse(asset, Reason(kind, f"the program cannot run: {run.error}", (), len(run.meshes) or None, 1.0))
+        return _refuse(Reason(kind, f"the program cannot run: {run.error}", (), len(run.meshes) or None, 1.0))
     if asset in family.contradicted:
-        return _refuse(asset, Reason("candidate", CONTRADICTED, share=1.0))
+        return _refuse(Reason("candidate", CONTRADICTED, share=1.0))
     if asset in state.wrong and run.selected == state.failed.get(asset):
-        return _refuse(asset, Reason("candidate", EDITED_SINCE if asset in state.edited else CALLED_WRONG, share=1.0))
+        return _refuse(Reason("candidate", EDITED_SINCE if asset in state.edited else CALLED_WRONG, share=1.0))
     if asset in state.reviewed_assets:
-        return AssetConfidence(asset, SURE_OF_DEMONSTRATED)
+        return ResultStatus(SURE_OF_DEMONSTRATED)
     reasons = [
         *_list_candidate_reasons(family, place),
         *_list_label_reasons(run),
@@ -75,11 +75,11 @@ def judge_edit(family: FamilyRun, place: int) -> AssetConfidence:
     weightiest = sorted([*reasons, *_list_program_reasons(family)], key=lambda one: -one.share)[:MOST_REASONS]
     if asset in state.wrong:  # it needs review for this, however probable it is now
         weightiest = [Reason("candidate", CALLED_WRONG_BEFORE), *weightiest[: MOST_REASONS - 1]]
-    return AssetConfidence(asset, family.evidence[place].probability, tuple(weightiest))
+    return ResultStatus(family.evidence[place].probability, tuple(weightiest))
 
 
-def _refuse(asset: str, why: Reason) -> AssetConfidence:
-    return AssetConfidence(asset, NO_EDIT, (why,))
+def _refuse(why: Reason) -> ResultStatus:
+    return ResultStatus(NO_EDIT, (why,))
 
 
 def _list_program_reasons(family: FamilyRun) -> Iterator[Reason]:

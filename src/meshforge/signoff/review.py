@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
-from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, ReviewState
+from meshforge.signoff.assessment import THRESHOLD, Assessment, ResultStatus, ReviewState
 from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.groups import ask_clusters, ask_groups, ask_orientation
 from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
@@ -53,7 +53,7 @@ def review_family(
     threshold: float = THRESHOLD,
     alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
 ) -> Assessment:
-    """Return how the family stands.
+    """Return how the family status.
 
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
@@ -77,12 +77,10 @@ def review_family(
     return replace(found, questions=(*questions, *(one for one in lost if one.id not in state.snoozed)))
 
 
-def assess_asset(
-    state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel, asset: str
-) -> AssetConfidence:
+def assess_asset(state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel, asset: str) -> ResultStatus:
     """Return how probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
-        return AssetConfidence(asset, 0.0, (judge_learning(outcome),))
+        return ResultStatus(0.0, (judge_learning(outcome),))
     run = _run_family(state, outcome, family, _NO_ALARMS)
     return judge_edit(run, run.places[asset])
 
@@ -231,7 +229,7 @@ def _gains_of(family: FamilyRun, splits: Sequence[CandidateSplit], looks: int = 
 def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
     correcting = price_demonstration(family.state.demos.values())
     for name in (one for one in found.need_review if one in family.places):
-        uncertainty = 1 - found.assets[name].probability
+        uncertainty = 1 - found.assets[name].confidence
         place = family.places[name]
         run, trust = family.runs[place], family.evidence[place].labels ** _TRUST
         splits = [split for rule in family.candidates for split in split_candidates(rule, [place])]

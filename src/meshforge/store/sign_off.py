@@ -85,22 +85,6 @@ class ConfidenceLine(JsonFile):
         reasons = tuple(signoff.Reason("alarm", text) for text in alarms)
         return self.model_copy(update={"reasons": (*reasons, *others), "is_outlier": True})
 
-    @classmethod
-    def of(
-        cls,
-        found: signoff.AssetConfidence,
-        rests_on: OutputInputs,
-        looked_at: bool,
-        measures: signoff.EditMeasures | None = None,
-    ) -> Self:
-        return cls(
-            probability=found.probability,
-            reasons=found.reasons,
-            rests_on=rests_on,
-            looked_at=looked_at,
-            measures=measures,
-        )
-
 
 class AssessmentFile(JsonFile):
     """What was found last. threshold: the probability from which on an asset is signed off; inputs_digest: of what was

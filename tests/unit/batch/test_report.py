@@ -18,8 +18,6 @@ from meshforge.batch import (
     ReportAsset,
     ReportHeader,
     ReportOptions,
-    ResultStatus,
-    ResultStatusWord,
     RunFigures,
     RunSummary,
     write_report,
@@ -27,6 +25,7 @@ from meshforge.batch import (
 from meshforge.batch.outcome import Unchanged
 from meshforge.checks import Examination, Finding
 from meshforge.language import Program, RuleTrace, explain, show
+from meshforge.signoff import Reason, ResultStatus, ResultStatusWord
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.batch.pages import opened, texts
 from tests.unit.rendering.scenes import box, hull, table
@@ -125,7 +124,9 @@ def test_the_legend_counts_labels_before_and_after(tree: Any) -> None:
 
 def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_sure_first(tmp_path: Path) -> None:
     def asset(name: str, word: ResultStatusWord, probability: float | None, **more: Any) -> ReportAsset:
-        standing = ResultStatus(word, f"{word} <now>", probability, ("rule 1 may mean <b>",))
+        standing = ResultStatus(
+            probability, (Reason("candidate", "rule 1 may mean <b>"),), word, found_since=("<now>",)
+        )
         return ReportAsset(name, table(), table(), result_status=standing, **more)
 
     shown = [
@@ -146,7 +147,9 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
         "edited excluded",
         "edited signed-off",
     ]
-    assert texts(page, "//article/p[@class='result-status needs-review']") == ["needs review <now>"] * 3
+    assert texts(page, "//article/p[@class='result-status needs-review']") == [
+        f"{share}needs review; found since: <now>" for share in ("", "30% sure, ", "94% sure, ")
+    ]
     assert texts(page, "//ul[@class='reasons']/li") == ["rule 1 may mean <b>"] * 7
     words = ["all", "edited", "failed", "needs review", "sure", "signed off", "excluded", "doubtful"]
     assert texts(page, "//span[@id='kinds']/button") == words

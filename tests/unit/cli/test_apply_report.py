@@ -43,7 +43,7 @@ def test_what_is_held_comes_first_with_its_doubts_and_nothing_is_green(run_doubt
     assert re.fullmatch(
         r"\d+% sure, needs review", texts(page, "//article[1]/p[@class='result-status needs-review']")[0]
     )
-    doubts = [doubt.text for doubt in Project.open("tables").status().open_assets[0].reasons]
+    doubts = [doubt.text for doubt in Project.open("tables").status().open_assets[0].result_status.reasons]
     assert doubts and texts(page, "//article[1]/ul[@class='reasons']/li") == doubts
     assert figures(page) == {
         "assets": "3",

@@ -117,12 +117,6 @@ def test_select_of_a_label_that_no_hull_has_names_the_nearest(run: Run) -> None:
     assert run("select", "Is(panel)", "row.obj").err == f"error: row.obj: {said}\n"
 
 
-def test_render_writes_a_turntable(run: Run) -> None:
-    assert run("render", "row.obj", "--turntable", "row.gif", "--size", "64x48").code == 0
-    with Image.open("row.gif") as turning:
-        assert (turning.size, turning.n_frames) == ((64, 48), 24)  # type: ignore[attr-defined]
-
-
 def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
     assert run("render", "row.obj", "-o", "row.png", "--size", "300x200", "--views", "iso,top").code == 0
     with Image.open("row.png") as picture:
@@ -371,8 +365,6 @@ def test_apply_refuses_options_that_make_no_sense(run: Run, more: tuple[str, ...
         (("render", "row.obj", "-o", "x.png", "--size", "big"), "--size big is not a size"),
         (("render", "row.obj", "-o", "x.png", "--views", "under"), "there is no view 'under'"),
         (("render", "row.obj"), "nothing says what to write"),
-        (("render", "row.obj", "--turntable", "x.png"), "a turntable is a GIF"),
-        (("render", "row.obj", "--turntable", "x.gif", "-o", "x.png"), "--out does not go with --turntable"),
         (("select", "Geo(Is(leg), +W)", "row.obj"), "+W"),
         (("apply", "row.obj", "row.obj"), "--out DIR is missing"),
         (("apply", "row.mf", "row.obj"), "row.mf: there is no such project or program"),

@@ -79,7 +79,7 @@ def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
     assert {row["asset"]: row["status"] for row in rows}[THIRD] == "needs review"
     held = next(row for row in rows if row["status"] == "needs review")
     assert 0 < held["probability"] < 1
-    sure = {one.id: one.probability for one in Project.open("tables").status().assets}
+    sure = {one.id: one.result_status.probability for one in Project.open("tables").status().assets}
     assert all(row["probability"] == pytest.approx(sure[row["asset"]], abs=1e-4) for row in rows)
     assert held["out"].endswith("model.obj")
     assert "needs review" in run("apply", "tables", "--min-confidence", "1").out
@@ -157,7 +157,7 @@ def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
     assert set(Project.open("racks").sign_offs()) == set(PLAIN)
     told = racks("status", "racks", "--signed-off")
-    (block,) = (one for one in Project.open("racks").status().assets if one.id == BLOCK)
+    (block,) = (one.result_status for one in Project.open("racks").status().assets if one.id == BLOCK)
     assert block.probability is not None and block.probability >= THRESHOLD, "that is how sure the review was"
     assert told.code == 1 and f"{BLOCK} ({format_share(block.probability)}): nearly one solid block" in told.out
 

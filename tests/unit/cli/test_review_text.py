@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import cast
 
 from meshforge.project import ProjectReview, format_review
-from meshforge.signoff import Assessment, AssetConfidence, Reason
+from meshforge.signoff import Assessment, Reason, ResultStatus
 
 
 def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
-    assets = {
-        name: AssetConfidence(name, p, (Reason("candidate", why),) if why else ()) for name, (p, why) in reasons.items()
-    }
+    assets = {name: ResultStatus(p, (Reason("candidate", why),) if why else ()) for name, (p, why) in reasons.items()}
 
     class Found:
         assessment = Assessment(assets)

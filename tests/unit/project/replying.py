@@ -89,7 +89,7 @@ def find_question(found: ProjectReview, kind: QuestionKind, asset: str) -> Revie
 
 
 def probabilities(found: ProjectReview) -> dict[str, float]:
-    return {name: one.probability for name, one in found.assessment.assets.items()}
+    return {name: one.confidence for name, one in found.assessment.assets.items()}
 
 
 def say(project: Project, choice: str, asset: str = ASKED, **more: Any) -> ProjectReview:

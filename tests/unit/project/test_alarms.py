@@ -83,7 +83,7 @@ def test_what_stands_out_is_held_before_anybody_looked_at_a_result_and_the_rest_
     found = racks.review(0.9, execution=IN_PROCESS).assessment
     assert found.need_review == (BLOCK,)
     assert found.assets[BLOCK].reasons[0].kind == "alarm"
-    assert found.assets[PLAIN[2]].probability >= THRESHOLD, "its labels are clear, and there is one reading"
+    assert found.assets[PLAIN[2]].confidence >= THRESHOLD, "its labels are clear, and there is one reading"
     assert found.question is not None and (found.question.kind, found.question.asset) == ("result", BLOCK)
 
 

@@ -19,6 +19,7 @@ from meshforge.project import (
     PropagationState,
     choose_next_step,
 )
+from meshforge.signoff import ResultStatus
 from meshforge.symbolic import Label
 
 
@@ -35,7 +36,7 @@ def asset(name: str = "a", labels: str = "hh", **more: Any) -> AssetStatus:
 BARE, BEGUN, LABELLED = asset(labels="--"), asset(labels="h-"), asset()
 SHOWN = replace(LABELLED, demonstrated=True)
 DONE = replace(SHOWN, output="edited")
-SURE = replace(DONE, sign_off="sure", probability=0.99)
+SURE = replace(DONE, result_status=ResultStatus(0.99, state="sure"))
 
 
 def suggest_last(assets: Sequence[str]) -> str | None:
@@ -86,7 +87,10 @@ def test_the_results_that_show_most_are_reviewed_first_as_far_as_nobody_did() ->
     rows = {name: replace(DONE, id=name) for name in "abcd"}
 
     def step_with(*accepted: str) -> NextStep:
-        seen = [replace(row, sign_off="signed off") if row.id in accepted else row for row in rows.values()]
+        seen = [
+            replace(row, result_status=ResultStatus(state="signed off")) if row.id in accepted else row
+            for row in rows.values()
+        ]
         return choose(*seen, has_program=True, last_run=LastRun("found", sample=("d", "gone", "b", "c")))
 
     assert step_with().text == "Look at 3 results that show best whether the program is right, first d."
@@ -146,7 +150,7 @@ def test_unsure_labels_are_checked_unless_something_else_is_less_work() -> None:
 
 def rows(*probabilities: float) -> list[AssetStatus]:
     return [
-        replace(SURE, id=name, sign_off="sure" if p >= 0.95 else "needs review", probability=p)
+        replace(SURE, id=name, result_status=ResultStatus(p, state="sure" if p >= 0.95 else "needs review"))
         for name, p in zip("abcd", probabilities, strict=False)
     ]
 

@@ -29,7 +29,7 @@ def review(project: Project, bar: float = 0.5) -> ProjectReview:
 
 
 def sign_off_of(project: Project, asset: str) -> str:
-    return next(one.sign_off for one in project.status().assets if one.id == asset)
+    return next(one.result_status.state for one in project.status().assets if one.id == asset)
 
 
 def result_of(asset: str) -> ReviewQuestion:
@@ -125,9 +125,9 @@ def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
     project = learned(tmp_path)
     review(project)
     project.layout.assessment.write_text("{")
-    assert {one.probability for one in project.status().assets} == {None}
+    assert {one.result_status.probability for one in project.status().assets} == {None}
     review(project)
-    assert None not in {one.probability for one in project.status().assets}
+    assert None not in {one.result_status.probability for one in project.status().assets}
 
 
 def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
@@ -151,8 +151,8 @@ def test_a_label_of_another_asset_makes_every_probability_unknown_and_no_sign_of
     project = applied(tmp_path)
     review(project)
     project.set_labels(THIRD, {"crumb": "leg"})
-    assert {one.probability for one in project.status().assets} == {None}
-    assert [one.sign_off for one in project.status().assets] == ["signed off", "signed off", "void"]
+    assert {one.result_status.probability for one in project.status().assets} == {None}
+    assert [one.result_status.state for one in project.status().assets] == ["signed off", "signed off", "void"]
 
 
 def test_what_is_signed_off_no_longer_is_named(tmp_path: Path) -> None:
@@ -226,8 +226,8 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     assert project.renew_sign_offs(odd, clock=lambda: NOON) == {}
     assert {asset: one.by for asset, one in project.sign_offs().items()} == {FIRST: "person", SECOND: "person"}
     assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs()
-    status = next(one for one in project.status().assets if one.id == THIRD)
-    assert (status.sign_off, [doubt.kind for doubt in status.reasons]) == ("needs review", ["alarm"])
+    status = next(one.result_status for one in project.status().assets if one.id == THIRD)
+    assert (status.state, [doubt.kind for doubt in status.reasons]) == ("needs review", ["alarm"])
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"
 
@@ -236,8 +236,8 @@ def test_an_output_that_is_found_to_stand_out_stays_signed_off_and_that_is_said(
     project = applied(tmp_path)
     review(project)
     assert project.renew_sign_offs({THIRD: ("volume +300%, the family +0%",)}, clock=lambda: NOON) == {}
-    status = next(one for one in project.status().assets if one.id == THIRD)
-    assert (status.sign_off, status.found_since) == ("signed off", ("volume +300%, the family +0%",))
+    status = next(one.result_status for one in project.status().assets if one.id == THIRD)
+    assert (status.state, status.found_since) == ("signed off", ("volume +300%, the family +0%",))
 
 
 def test_a_sign_off_stays_at_a_lower_bar_and_is_taken_back_where_more_is_asked_for(tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def test_a_label_that_nothing_uses_makes_no_output_stale_and_leaves_what_was_acc
     program = project.program()
     assert program and "wheel" in program.labels
     assert [row.stale for row in of(project).assets] == [(), (), ()]
-    assert (asset(project, FIRST).review, asset(project, FIRST).void) == ("accepted", ())
+    assert (asset(project, FIRST).review, asset(project, FIRST).result_status.void) == ("accepted", ())
 
 
 def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:

@@ -76,9 +76,9 @@ def project(signed: Path, tmp_path: Path) -> Project:
 def find_voids(project: Project, *, verify: bool = False) -> Voids:
     """What changed of the assets that are not signed off any more."""
     found = Project.open(project.folder).status(workers=0, verify=verify)
-    assert {one.sign_off for one in found.assets} <= {"signed off", "void"}
-    assert all(bool(one.void) == (one.sign_off == "void") for one in found.assets)
-    return {one.id: one.void for one in found.assets if one.void}
+    assert {one.result_status.state for one in found.assets} <= {"signed off", "void"}
+    assert all(bool(one.result_status.void) == (one.result_status.state == "void") for one in found.assets)
+    return {one.id: one.result_status.void for one in found.assets if one.result_status.void}
 
 
 def output(project: Project, asset: str) -> Path:

@@ -58,7 +58,7 @@ def test_where_other_hulls_are_meant_the_output_is_made_with_these_and_signed_of
     assert (len(made), len(own)) == (5, 4), "the leg that is left out stays by itself"
     assert project.sign_offs()[ASKED].by == "person"
     status = next(one for one in project.status().assets if one.id == ASKED)
-    assert (status.sign_off, status.stale) == ("signed off", ())
+    assert (status.result_status.state, status.stale) == ("signed off", ())
 
 
 def test_a_corrected_result_counts_for_a_program_from_when_on_it_does_what_was_meant(project: Project) -> None:

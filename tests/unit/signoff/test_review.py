@@ -92,8 +92,8 @@ def test_before_anything_is_shown_a_demonstration_is_asked_for_and_nothing_is_su
 def test_a_wrong_label_that_changes_the_edit_is_the_doubt_of_its_asset() -> None:
     meshes = tables(leg2_low="panel")
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
-    worst = min(found.assets.values(), key=lambda one: one.probability)
-    assert worst.asset == "t5"
+    worst = found.assets["t5"]
+    assert worst.confidence == min(one.confidence for one in found.assets.values())
     doubt = next(one for one in worst.reasons if one.kind == "label")
     assert doubt.hulls == ("leg2_low",)
     assert doubt.rule == 1
@@ -137,11 +137,11 @@ def test_a_result_that_was_called_wrong_is_held_and_improbable_while_it_stays() 
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), wrong=frozenset({"t5"}))
     found = review(replace(state, failed={"t5": (legs_of("t5"),)}))
     assert "t5" in found.need_review
-    assert found.assets["t5"].probability <= NO_EDIT
+    assert found.assets["t5"].confidence <= NO_EDIT
     assert found.assets["t5"].reasons[0].text == "a person said that this result is wrong"
     other = review(replace(state, failed={"t5": (frozenset(),)}))
     assert "t5" in other.need_review, "nobody looked at the one that is there now"
-    assert other.assets["t5"].probability > 0.5
+    assert other.assets["t5"].confidence > 0.5
 
 
 def test_the_queue_ends_whatever_is_said() -> None:
@@ -203,13 +203,13 @@ def test_with_a_label_that_is_told_the_doubt_is_gone() -> None:
     told = {**meshes, "t5": meshes["t5"].with_labels({"leg2_low": Label("leg", 1.0, "user")})}
     found = review(replace(state, meshes=told))
     assert not [doubt for doubt in found.assets["t5"].reasons if "leg2_low" in doubt.hulls]
-    assert found.assets["t5"].probability > review(state).assets["t5"].probability
+    assert found.assets["t5"].confidence > review(state).assets["t5"].confidence
 
 
 def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     meshes = {**tables(), "bare": table().with_labels(dict.fromkeys(table().index))}
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
-    assert found.assets["bare"].probability < 0.05
+    assert found.assets["bare"].confidence < 0.05
     assert found.assets["bare"].reasons[0].text == "the program cannot run: no labels, though the program asks for some"
 
 

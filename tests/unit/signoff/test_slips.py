@@ -44,7 +44,7 @@ def meant_by(question: ReviewQuestion) -> frozenset[str]:
 
 
 def probability(found: Assessment, asset: str) -> float:
-    return found.assets[asset].probability
+    return found.assets[asset].confidence
 
 
 def test_a_hull_that_was_forgotten_is_asked_about() -> None:

@@ -9,9 +9,9 @@ from meshforge.project import Project
 from meshforge.signoff import (
     THRESHOLD,
     Assessment,
-    AssetConfidence,
     HullPlace,
     Reason,
+    ResultStatus,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
@@ -31,10 +31,10 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 def assessment_of(*questions: ReviewQuestion) -> Assessment:
     rows = {
-        ONE: AssetConfidence(ONE, 0.999),
-        OTHER: AssetConfidence(OTHER, 0.62, (Reason("alarm", "nearly one solid block", share=0.3),)),
-        "wrong": AssetConfidence("wrong", 0.99),
-        "away": AssetConfidence("away", 0.1),
+        ONE: ResultStatus(0.999),
+        OTHER: ResultStatus(0.62, (Reason("alarm", "nearly one solid block", share=0.3),)),
+        "wrong": ResultStatus(0.99),
+        "away": ResultStatus(0.1),
     }
     wrong, looked_at = frozenset({"wrong"}), frozenset({ONE})
     return Assessment(rows, looked_at=looked_at, wrong=wrong, excluded={"away": "not solved"}, questions=questions)

@@ -98,7 +98,7 @@ def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_o
     assert signers_of(project) == {SECOND: "person"}
     carried = "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: "
     carried += "look whether all parts are meant"
-    told = {asset.id: [doubt.text for doubt in asset.reasons] for asset in project.status().assets}
+    told = {asset.id: [doubt.text for doubt in asset.result_status.reasons] for asset in project.status().assets}
     assert carried in told[FIRST] and f"{FIRST}: {carried}" in told[THIRD]
     project.demonstrate(FIRST, project.steps(FIRST))
     learn_and_assess(project, flag, 2)
@@ -187,7 +187,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
         project.demonstrate(asset, STEPS[:1])
     learn_and_assess(project, flag)
     assert signers_of(project)[THIRD] == "person"
-    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", ANSWERS)
+    assert next(one for one in project.status().assets if one.id == THIRD).result_status.void == ("program", ANSWERS)
 
 
 def test_what_was_said_is_learned_from_what_is_snoozed_is_only_asked_anew_and_sign_offs_are_neither(

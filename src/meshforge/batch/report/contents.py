@@ -22,6 +22,8 @@ from meshforge.symbolic import SymbolicMesh, transfer_labels
 if TYPE_CHECKING:
     from PIL.Image import Image
 
+    from meshforge.signoff import ResultStatus, ResultStatusWord
+
 
 EditStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
 """What a program or a conversion made of an asset; not written: nothing, since its edit is not sure enough."""
@@ -39,21 +41,6 @@ MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""
 READ_TIMEOUT = 300.0
 """Seconds for one asset."""
-
-ResultStatusWord = Literal["needs review", "sure", "signed off", "excluded"]
-"""How an asset of a project stands; sure: to be signed off once its output is up to date; held: anything less."""
-
-
-@dataclass(frozen=True, slots=True)
-class ResultStatus:
-    """How sure the edit of an asset of a project is. text: the same in words; probability: that it is right, None where
-    it is not known; doubts: why it may be wrong, a sentence each.
-    """
-
-    word: ResultStatusWord
-    text: str
-    probability: float | None = None
-    reasons: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -102,14 +89,17 @@ class ReportAsset:
     @property
     def needs_review(self) -> bool:
         """Whether it is to be looked at first: it needs review, or is broken."""
-        return self.is_broken or bool(self.result_status and self.result_status.word == "needs review")
+        return self.is_broken or bool(self.result_status and self.result_status.needs_review)
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
-        """Its place in an order of assets that have a result status: what needs review, then alarms, the least sure
-        first."""
-        known = self.result_status.probability if self.result_status else None
-        return not self.needs_review, not self.alarms, -1.0 if known is None else known
+        """Its place in an order of assets of a project: what needs review, then alarms, the least sure first."""
+        return not self.needs_review, not self.alarms, self.result_status.confidence if self.result_status else -1.0
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why its edit may be wrong, a sentence each, but for alarms."""
+        return [one.text for one in (self.result_status.reasons if self.result_status else ()) if one.kind != "alarm"]
 
     @property
     def kinds(self) -> list[str]:

@@ -97,6 +97,9 @@ def write_report(
     failed come first, then those with findings, where assets were checked. The page refers to no other file. Raises
     StoppedError where `options.execution.stop` says so.
     """
+    from meshforge.signoff import ResultStatusWord  # lazy: 0.02 s, which only pages take
+
+    words: tuple[ResultStatusWord, ...] = get_args(ResultStatusWord)
     if any(asset.result_status for asset in assets):
         assets = sorted(assets, key=lambda asset: asset.rank)
     elif any(asset.checked for asset in assets):
@@ -124,9 +127,7 @@ def write_report(
         header=header,
         figures=figures,
         counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
-        result_statuses=[
-            (word, n) for word in get_args(contents.ResultStatusWord) if (n := figures.result_statuses.get(word))
-        ],
+        result_statuses=[(word, n) for word in words if (n := figures.result_statuses.get(word))],
         selection=_describe_selection(len(assets), figures),
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
@@ -134,7 +135,7 @@ def write_report(
         highlight=partial(_tokenize, colors={show_label(label): color for label, color in colors.items()}),
         label_legend=_label_legend(assets, colors if labelled else {}, any(s.has_blame for s in drawn)),
         change_legend=_change_legend(assets) if any(shown.changes for shown in drawn) else None,
-        kinds=_kinds(assets),
+        kinds=_kinds(assets, words),
         has_pairs=any(shown.after for shown in drawn),
         cards=cards,
     )
@@ -175,9 +176,9 @@ def _describe_findings(found: Sequence[Finding]) -> str:
     return f"{pluralize(errors, 'error')}, {pluralize(len(found) - errors, 'warning')}" if found else "no findings"
 
 
-def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
+def _kinds(assets: Sequence[contents.ReportAsset], words: Sequence[str]) -> list[str]:
     present = {word for asset in assets for word in (asset.status, asset.result_status and asset.result_status.word)}
-    kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.ResultStatusWord)) if word in present]
+    kinds: list[str] = [word for word in (*STATUSES, *words) if word in present]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
     if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):

@@ -19,7 +19,7 @@ from meshforge.formats.gltf.edit import EngineBodies, EngineBody, assign_names, 
 from meshforge.formats.gltf.physics import KHR, mass_keys, motion_of
 from meshforge.formats.gltf.physics_style import PhysicsStyle, pose_keys
 from meshforge.formats.gltf.styles import NewPiece
-from meshforge.formats.kinematic_tree import BodyTree
+from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import VisualSurfaces, linear_color, read_visual_surfaces
@@ -179,7 +179,7 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
             if moves and isinstance(piece, NonConvexPiece):
                 lost.append(piece.name)
             else:
-                style.add(NewPiece(piece, engine_names.claim_name(names.body, own, taken), node))
+                style.add(NewPiece(piece, claim_name(own, taken, names.body, str.lower, "-"), node))
     return notes, lost
 
 

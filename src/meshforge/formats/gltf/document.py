@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.geometry import Ints
 from meshforge.symbolic import Document
 
@@ -21,15 +22,13 @@ BODY = "body"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class NodeRecord:
-    """A node of the file with collision: its body, the names of its pieces in order, hulls and non-convex ones.
+class NodeRecord(CollisionElement):
+    """A node of the file with collision.
 
     owner: the piece (m,) of each triangle of its mesh; None where the pieces are not parts of a mesh.
     """
 
     node: int
-    body: str
-    names: tuple[str, ...]
     owner: Ints | None = None
 
 

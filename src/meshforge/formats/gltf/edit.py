@@ -10,7 +10,7 @@ from meshforge.common import AssetError, join_names
 from meshforge.formats import base, collision_pieces, references, visuals
 from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
-from meshforge.formats.engine_names import CollisionNames, claim_name
+from meshforge.formats.engine_names import CollisionNames
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
@@ -18,6 +18,7 @@ from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.gltf.physics import body_nodes
 from meshforge.formats.gltf.physics_style import PhysicsStyle
 from meshforge.formats.gltf.styles import EngineStyle, GodotStyle, NewPiece, PlainStyle, Style, UnityStyle, UnrealStyle
+from meshforge.formats.kinematic_tree import claim_name
 from meshforge.formats.meshfile import gltf_document, gltf_scene
 from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.symbolic import Asset, Body, FeatureKind, Geom, NonConvexPiece, Surface
@@ -209,7 +210,7 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
     found, bare, taken = [], [], set[str]()
     only = [body.name for body in asset.bodies] == [_NAMELESS]
     for body in asset.bodies:
-        name = claim_name(engine.body, stem if only else body.name, taken)
+        name = claim_name(stem if only else body.name, taken, engine.body, str.lower, "-")
         geoms = [geom for geom in asset.geoms if geom.body == body.name]
         non_convex = [piece for piece in asset.non_convex if piece.body == body.name and has_triangles(piece)]
         surfaces = tuple(surface for owner, surface in shown if owner == body.name)

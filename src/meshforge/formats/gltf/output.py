@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from meshforge.formats.base import Output
 from meshforge.formats.gltf.document import rewrite_json
+from meshforge.formats.kinematic_tree import claim_name
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_meshes import TYPES
 from meshforge.formats.meshfile.gltf_scene import GltfScene
@@ -94,11 +95,7 @@ def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None
 
 def free_buffer_name(stem: str, taken: Collection[str]) -> str:
     """Return a name of a buffer file that is not taken."""
-    used = {name.lower() for name in taken}
-    name, number = f"{stem}.bin", 2
-    while name.lower() in used:
-        name, number = f"{stem}_{number}.bin", number + 1
-    return name
+    return claim_name(stem, {name.lower() for name in taken}, "{}.bin".format, str.lower)
 
 
 def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_reader, references
-from meshforge.formats.collision_pieces import CollisionElement, build_pieces, drop_repeats, place_surface
+from meshforge.formats.collision_pieces import build_pieces, drop_repeats, place_surface
 from meshforge.formats.engine_names import COLLIDERS, godot_kind, holds_colliders, unreal_kind
 from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, names_of, visible_nodes
@@ -53,9 +53,8 @@ def read_gltf(path: Path) -> Asset:
         fixed = not bodies or any(node not in owners for node in nodes)  # something is part of no rigid body
         notes = [*_collect_notes(scene, reader.convention), *reader.notes]
         authored = _record_nodes(sources, owners)
-        elements = [CollisionElement(element.body, element.names) for element in authored]
         mentions = [_mentions_of_node(scene, source) for source in sources]
-        geoms, non_convex = build_pieces(elements, [source.parts for source in sources], mentions)
+        geoms, non_convex = build_pieces(authored, [source.parts for source in sources], mentions)
         hulls = {name: [geom.shape for geom in geoms if geom.body == name] for name in bodies.values()}
         found = (physics.read_inertial(scene.placements[k], name, hulls[name]) for k, name in bodies.items())
         masses = tuple(inertial for inertial in found if inertial is not None)
@@ -110,7 +109,7 @@ def _record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, str]) -
     own = [bodies.get(source.node, BODY) for source in sources]
     named = [(body if bodies else None, s.name, len(s.parts)) for body, s in zip(own, sources, strict=True)]
     return tuple(
-        NodeRecord(source.node, body, names, source.owner)
+        NodeRecord(body, names, source.node, source.owner)
         for source, body, names in zip(sources, own, collision_pieces.name_element_pieces(named), strict=True)
     )
 

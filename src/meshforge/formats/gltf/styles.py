@@ -13,6 +13,7 @@ from meshforge.formats import engine_names
 from meshforge.formats.gltf.colliders import names_of, nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, name_of
+from meshforge.formats.kinematic_tree import claim_name
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry
 from meshforge.geometry import Floats
 from meshforge.symbolic import Geom, NonConvexPiece
@@ -157,7 +158,7 @@ class EngineStyle(PlainStyle):
         """Return a name that nothing else in the file has."""
         is_hull = isinstance(piece.what, Geom)
         named = self.names.hull if is_hull else self.names.non_convex
-        return engine_names.claim_name(named, piece.own, self.taken)
+        return claim_name(piece.own, self.taken, named, str.lower, "-")
 
     def material_of(self, piece: NewPiece) -> int | None:
         return None
@@ -178,8 +179,8 @@ class UnityStyle(EngineStyle):
         if node in self.colliding or engine_names.holds_colliders(above):
             return node
         if node not in self.holders:
-            name = engine_names.claim_name(
-                lambda own: names.body(own) + engine_names.COLLIDERS, above or self.stem, self.taken
+            name = claim_name(
+                above or self.stem, self.taken, lambda own: names.body(own) + engine_names.COLLIDERS, str.lower, "-"
             )
             self.holders[node] = self.draft.add_node({"name": name}, node)
         return self.holders[node]

@@ -11,6 +11,7 @@ from typing import TypeVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
+from meshforge.formats.kinematic_tree import claim_name
 from meshforge.formats.plain.base import BODY, PlainFormat
 from meshforge.formats.plain.obj import ObjFormat
 from meshforge.formats.plain.parts import (
@@ -190,7 +191,4 @@ class FolderWriter:
     def _find_free_name(self, name: str, suffix: str) -> str:
         safe = re.sub(r"[^\w.#~@ +-]+", "_", name)[:_LONGEST].strip(". ") or "hull"
         taken = {file.lower() for file in self.documents}
-        stem, number = safe, 2
-        while f"{stem}{suffix}".lower() in taken:
-            stem, number = f"{safe}_{number}", number + 1
-        return f"{stem}{suffix}"
+        return claim_name(safe, taken, lambda stem: stem + suffix, str.lower)

@@ -10,7 +10,7 @@ from meshforge.formats.base import Loss, Output
 from meshforge.formats.sdf import document, edit
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece, Rgba, Surface
 
 _VERSION, _WITH_COUPLINGS = (1, 8), "1.11"
 _MAIN = "model.sdf"
@@ -23,7 +23,7 @@ class SdfCreator(link_output.LinkCreator):
     become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.
     """
 
-    native = edit.SdfShape
+    native = kinematic_tree.LinkShape
     title = "SDF"
     kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
     has_world = True
@@ -83,13 +83,18 @@ class SdfCreator(link_output.LinkCreator):
         text = self.maker.build_collision(link_t_plane, kind, self.lead)
         return [element_edits.OutputElement(piece.body, (piece.name,), text=text)]
 
+    def color_lines(self, rgba: Rgba) -> list[bytes]:
+        color = xml.format_numbers(rgba)
+        lines = xml.nest("material", edit.leaf("ambient", color), edit.leaf("diffuse", color))
+        return [*lines, edit.number_leaf("transparency", 1 - rgba[3])] if rgba[3] < 1 else lines
+
     def _link_lines(self, link: str) -> list[bytes]:
         frame = self.chain.frames[link]
         inertial, base = self.inertial_of(link)
         inside = [edit.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
         inside += edit.inertial_lines(inertial, base) if inertial else []
         for k, visual in enumerate(self.shown[link]):
-            inside += edit.visual_lines(f"visual{k}", visual)
+            inside += self.visual_lines(visual, name=f"visual{k}")
         collisions = [output.to_bytes(b"").split(b"\n") for output in self.outputs[link]]
         inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
         return xml.nest("link", *inside, name=self.links[link])

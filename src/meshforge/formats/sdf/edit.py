@@ -1,24 +1,19 @@
 """Writing an edited SDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import assert_never
-
-import numpy as np
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats import element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.references import add_copy, note_absolute, reference_of
+from meshforge.formats.references import collect_copies, reference_of
 from meshforge.formats.sdf import document, frames, models
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
+from meshforge.geometry import Capsule, Ellipsoid, Floats, Pose, Shape
 from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
 _REMEDY = "Rename one of them, or put both under one folder."
-SdfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
-"""The shapes that SDF has of its own and MeshForge knows, the round ones from 1.8 on."""
 _ENDLESS = (-1e16, 1e16)
 """Limits that stand for none, which PyBullet asks for."""
 
@@ -28,35 +23,14 @@ def leaf(tag: str, text: str) -> bytes:
     return b"<%s>%s</%s>" % (tag.encode(), xml.escape(text), tag.encode())
 
 
-def _number_leaf(tag: str, number: float) -> bytes:
+def number_leaf(tag: str, number: float) -> bytes:
+    """Return an element that holds a number."""
     return leaf(tag, xml.format_numbers([number]))
 
 
 def pose_leaf(pose: Pose) -> bytes:
     """Return the element of a pose, its numbers in full precision."""
     return leaf("pose", xml.format_numbers([*pose.translation, *pose.to_rpy()]))
-
-
-def native_lines(shape: SdfShape) -> list[bytes]:
-    """Return the lines of the element of a native shape, without its pose."""
-    match shape:
-        case Box():
-            inside = [leaf("size", xml.format_numbers(2 * shape.half))]
-        case Ellipsoid():
-            inside = [leaf("radii", xml.format_numbers(shape.radii))]
-        case Sphere():
-            inside = [_number_leaf("radius", shape.radius)]
-        case Cylinder() | Capsule():
-            inside = [_number_leaf("radius", shape.radius), _number_leaf("length", 2 * shape.half_length)]
-        case _:
-            assert_never(shape)
-    return xml.nest(shape.kind, *inside)
-
-
-def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
-    """Return the lines of the element of a mesh file in metres."""
-    scaled = [] if scale is None else [leaf("scale", xml.format_numbers(scale))]
-    return xml.nest("mesh", leaf("uri", reference), *scaled)
 
 
 def joint_lines(
@@ -70,15 +44,15 @@ def joint_lines(
         lower, upper = joint.limits or _ENDLESS
         most = (("effort", joint.effort), ("velocity", joint.velocity))
         losses = (("damping", joint.damping), ("friction", joint.friction))
-        limit = [_number_leaf("lower", lower), _number_leaf("upper", upper)]
-        limit += [_number_leaf(tag, number) for tag, number in most if number]
-        dynamics = [_number_leaf(tag, number) for tag, number in losses if number]
+        limit = [number_leaf("lower", lower), number_leaf("upper", upper)]
+        limit += [number_leaf(tag, number) for tag, number in most if number]
+        dynamics = [number_leaf(tag, number) for tag, number in losses if number]
         axis = [leaf("xyz", xml.format_numbers(kinematic_tree.drop_rounding(made.axis))), *xml.nest("limit", *limit)]
         mimic = []
         if coupling:
             offset, factor = coupling.coefficients
             numbers = (("multiplier", factor), ("offset", offset), ("reference", 0.0))
-            inside_mimic = (_number_leaf(tag, number) for tag, number in numbers)
+            inside_mimic = (number_leaf(tag, number) for tag, number in numbers)
             mimic = xml.nest("mimic", *inside_mimic, joint=coupling.joint, axis="axis")
         inside += xml.nest("axis", *axis, *(xml.nest("dynamics", *dynamics) if dynamics else []), *mimic)
     return xml.nest("joint", *inside, name=made.name, type=kind)
@@ -87,24 +61,8 @@ def joint_lines(
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """Return the lines of an `<inertial>`, its axes those of the link."""
     centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
-    moments = xml.nest("inertia", *(_number_leaf(name, value) for name, value in kinematic_tree.name_moments(tensor)))
-    return xml.nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
-
-
-def visual_lines(name: str, visual: mesh_output.LinkVisual) -> list[bytes]:
-    """Return the lines of a `<visual>`."""
-    if isinstance(visual.what, SdfShape):
-        pose, kind = visual.what.pose, native_lines(visual.what)
-    else:
-        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
-        scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
-        pose, kind = visual.pose, mesh_lines(visual.what, scale)
-    inside = [pose_leaf(pose), *xml.nest("geometry", *kind)]
-    if visual.rgba:
-        color = xml.format_numbers(visual.rgba)
-        inside += xml.nest("material", leaf("ambient", color), leaf("diffuse", color))
-        inside += [_number_leaf("transparency", 1 - visual.rgba[3])] if visual.rgba[3] < 1 else []
-    return xml.nest("visual", *inside, name=name)
+    moments = xml.nest("inertia", *(number_leaf(name, value) for name, value in kinematic_tree.name_moments(tensor)))
+    return xml.nest("inertial", pose_leaf(Pose.of_translation(centre)), number_leaf("mass", inertial.mass), *moments)
 
 
 def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass) -> Output:
@@ -123,7 +81,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     names = element_edits.assign_names([output for plan in plans for output in plan.outputs])
     each = list(zip(plans, origin.sources, strict=True))
     texts = [_build_text(asset, origin, plan, source, mass) for plan, source in each]
-    copies, notes = list_copies(origin.sources, texts, name)
+    copies, notes = collect_copies(_list_files(origin.sources, texts, name), _REMEDY)
     made: dict[str, bytes] = {}
     for plan, source in each:
         folder = posixpath.dirname(source.place or "")
@@ -178,16 +136,17 @@ class SdfElementMaker(element_edits.ElementMaker):
 
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
-        if isinstance(shape, SdfShape) and is_known:
-            return shape.pose, native_lines(shape)
+        if isinstance(shape, kinematic_tree.LinkShape) and is_known:
+            sizes = kinematic_tree.name_sizes(shape).items()
+            return shape.pose, xml.nest(shape.kind, *(leaf(tag, text) for tag, text in sizes))
         return None
 
-    def mesh_lines(self, reference: str) -> list[bytes]:
-        return mesh_lines(reference)
+    def mesh_lines(self, reference: str, scale: Floats | None = None) -> list[bytes]:
+        scaled = [] if scale is None else [leaf("scale", xml.format_numbers(scale))]
+        return xml.nest("mesh", leaf("uri", reference), *scaled)
 
-    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = xml.nest("collision", pose_leaf(pose), *xml.nest("geometry", *kind))
-        return (xml.newline_of(self.data) + lead).join(lines)
+    def pose_tag(self, pose: Pose) -> bytes:
+        return pose_leaf(pose)
 
     def make_element(
         self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes
@@ -219,7 +178,7 @@ class SdfElementMaker(element_edits.ElementMaker):
 
 def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> None:
     """Raise AssetError where an edit would change a mass that Gazebo computes of collisions."""
-    edited = {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
+    edited = {one.body for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
     edited |= {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
     for body in sorted(edited | plan.ends.keys()):
         inertial = plan.links[body].first("inertial")
@@ -229,30 +188,19 @@ def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> Non
             raise AssetError(problem, where=where, remedy=remedy)
 
 
-def list_copies(
+def _list_files(
     sources: Sequence[document.SdfSource], texts: Sequence[bytes], name: str
-) -> tuple[dict[str, Path], list[str]]:
-    """Return the files, and notes on those that stay where they are; texts: of the sources as they are written; name:
-    of the main one, whose `model.config` goes along where that names a file of that name.
-
-    Raises AssetError where two of them would become one.
-    """
-    copies: dict[str, Path] = {}
-    notes = []
+) -> Iterator[tuple[str, str | None, Path | None]]:
+    """Yield references, each with its place and its file; texts: of the sources as they are written; name: of the main
+    one, whose `model.config` goes along where that names a file of that name."""
     for number, (source, text) in enumerate(zip(sources, texts, strict=True)):
         if source.place is None:
-            notes.append(note_absolute(source.reference))
+            yield source.reference, None, source.path
             continue
         folder = posixpath.dirname(source.place)
         config = source.path.parent / document.CONFIG
         if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
-            add_copy(copies, posixpath.join(folder, document.CONFIG), config, _REMEDY)
+            yield "", posixpath.join(folder, document.CONFIG), config
         for reference, path in document.list_references(source, xml.XmlText.of(text).data):
             place = source.resolver.place(reference)
-            if path is None:
-                continue
-            if place is None:
-                notes.append(note_absolute(reference))
-            else:
-                add_copy(copies, posixpath.normpath(posixpath.join(folder, place)), path, _REMEDY)
-    return copies, notes
+            yield reference, place and posixpath.normpath(posixpath.join(folder, place)), path

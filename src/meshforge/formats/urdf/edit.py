@@ -4,40 +4,24 @@ links, joints, native shapes and mesh files."""
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import assert_never
-
-import numpy as np
 
 from meshforge.common import join_names, pluralize
 from meshforge.formats import base, collision_pieces, element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.conversion import note_hulled
 from meshforge.formats.link_output import LinkCreator
-from meshforge.formats.references import Resolver, add_copy, note_absolute, placement, reference_of
+from meshforge.formats.references import collect_copies, placement, reference_of
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, collisions, parse_robot, references
-from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Coupling, FeatureKind, Inertial, Surface
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Coupling, FeatureKind, Inertial, Rgba, Surface
 
 UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
 CAPSULE_READERS = "URDF without --urdf-capsules (MuJoCo 4, Bullet and Drake read <capsule>, yourdfpy 0.0.60 refuses it)"
 """Why a capsule is written as a hull, and who reads what would be written else."""
+_REMEDY = "Rename one of them, or put both under one package root."
 
 UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
 _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
-
-
-def native_tag(shape: UrdfShape | Capsule) -> bytes:
-    """Return the element of a native shape, without its pose; the length of a capsule is that of the cylinder in it."""
-    match shape:
-        case Box():
-            sizes = {"size": xml.format_numbers(2 * shape.half)}
-        case Cylinder() | Capsule():
-            sizes = {"radius": _text_of(shape.radius), "length": _text_of(2 * shape.half_length)}
-        case Sphere():
-            sizes = {"radius": _text_of(shape.radius)}
-        case _:
-            assert_never(shape)
-    return xml.tag(shape.kind, sizes)
 
 
 def origin_tag(pose: Pose) -> bytes:
@@ -75,21 +59,6 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     return xml.nest("inertial", origin_tag(Pose.of_translation(centre)), mass, xml.tag("inertia", moments))
 
 
-def visual_lines(visual: mesh_output.LinkVisual) -> list[bytes]:
-    """Return the lines of a `<visual>`."""
-    if isinstance(visual.what, Box | Cylinder | Sphere):
-        pose, kind = visual.what.pose, native_tag(visual.what)
-    else:
-        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
-        scale = {} if np.array_equal(visual.scale, np.ones(3)) else {"scale": xml.format_numbers(visual.scale)}
-        pose, kind = visual.pose, xml.tag("mesh", {"filename": visual.what, **scale})
-    inside = [origin_tag(pose), *xml.nest("geometry", kind)]
-    if visual.rgba:  # a material named by its numbers: equal names must be equal colours
-        color = xml.format_numbers(visual.rgba)
-        inside.append(b'<material name="rgba %s">%s</material>' % (color.encode(), xml.tag("color", {"rgba": color})))
-    return xml.nest("visual", *inside)
-
-
 def _text_of(value: float) -> str:
     return xml.format_numbers([value])
 
@@ -115,23 +84,9 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: boo
     names = element_edits.assign_names(plan.outputs, unique=True)
     data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
-    copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
+    texts = references(parse_robot(data, str(asset.path)))
+    copies, far = collect_copies(((text, placement(text), document.resolver.find(text)) for text in texts), _REMEDY)
     return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
-
-
-def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
-    """The input files that the output refers to, by where they go; and notes on those that stay where they are."""
-    copies: dict[str, Path] = {}
-    notes = []
-    for reference in references(robot):
-        place, path = placement(reference), resolver.find(reference)
-        if path is None:  # made, or missing from the start
-            continue
-        if place is None:
-            notes.append(note_absolute(reference))
-        else:
-            add_copy(copies, place, path, "Rename one of them, or put both under one package root.")
-    return copies, notes
 
 
 @dataclass(eq=False)
@@ -145,15 +100,15 @@ class UrdfElementMaker(element_edits.ElementMaker):
 
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         if isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule)):
-            return shape.pose, [native_tag(shape)]
+            return shape.pose, [xml.tag(shape.kind, kinematic_tree.name_sizes(shape))]
         return None
 
-    def mesh_lines(self, reference: str) -> list[bytes]:
-        return [xml.tag("mesh", {"filename": reference})]
+    def mesh_lines(self, reference: str, scale: Floats | None = None) -> list[bytes]:
+        scaled = {} if scale is None else {"scale": xml.format_numbers(scale)}
+        return [xml.tag("mesh", {"filename": reference, **scaled})]
 
-    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = xml.nest("collision", origin_tag(pose), *xml.nest("geometry", *kind))
-        return (xml.newline_of(self.data) + lead).join(lines)
+    def pose_tag(self, pose: Pose) -> bytes:
+        return origin_tag(pose)
 
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
@@ -210,10 +165,15 @@ class _Creator(LinkCreator):
         is_flat = not len(surface.faces) or collision_pieces.is_flat(surface.vertices)
         return "engines refuse a mesh that is flat" if is_flat else ""
 
+    def color_lines(self, rgba: Rgba) -> list[bytes]:
+        """Return a material named by its numbers: equal names must be equal colours."""
+        color = xml.format_numbers(rgba)
+        return [b'<material name="rgba %s">%s</material>' % (color.encode(), xml.tag("color", {"rgba": color}))]
+
     def _link_lines(self, link: str) -> list[bytes]:
         inertial, frame = self.inertial_of(link)
         inside = inertial_lines(inertial, frame) if inertial else []
-        inside += [line for visual in self.shown[link] for line in visual_lines(visual)]
+        inside += [line for visual in self.shown[link] for line in self.visual_lines(visual)]
         inside += [output.to_bytes(b"") for output in self.outputs[link]]
         return xml.nest("link", *inside, name=link) if inside else [xml.tag("link", {"name": link})]
 

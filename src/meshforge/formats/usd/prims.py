@@ -6,6 +6,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding
 from meshforge.formats.libraries import pxr
@@ -14,7 +15,6 @@ from meshforge.formats.usd.stage import UsdStage, rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
 from meshforge.symbolic import Inertial
 
-_SHEAR = 1e-9
 _EVEN = 1e-9
 _NOT_IN_NAMES = re.compile(r"[^\w]+")
 
@@ -42,14 +42,9 @@ class PrimSpace:
 
     def split_pose(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
         """Return a pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None if sheared."""
-        linear = np.linalg.solve(self.linear, pose.rotation)
-        scales = np.linalg.norm(linear, axis=0)
-        turn = linear / scales
-        if np.abs(turn.T @ turn - np.eye(3)).max() > _SHEAR:
-            return None
-        if np.linalg.det(turn) < 0:  # the shapes that ask are symmetric
-            turn = turn * np.array([1.0, 1.0, -1.0])
-        return self.to_local(pose.translation[None])[0], turn, scales
+        linear = np.asarray(np.linalg.solve(self.linear, pose.rotation), dtype=np.float64)
+        split = geometry.split_scaled_rotation(linear)
+        return (self.to_local(pose.translation[None])[0], *split) if split else None
 
 
 def add_prim(holder: Any, name: str, kind: str) -> Any:

@@ -49,11 +49,11 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     notes: list[str] = []
     sources = list(read_collisions(scene, bodies, physics, notes))
     names = collision_pieces.name_pieces((bodies.hull_name(one.path, one.body), len(one.parts)) for one in sources)
-    authored = tuple(PrimRecord(one.path, one.body, own) for one, own in zip(sources, names, strict=True))
+    authored = tuple(PrimRecord(one.body, own, one.path) for one, own in zip(sources, names, strict=True))
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
     mentions = [_mentions_of_prim(source.prim) for source in sources]
     geoms, non_convex = collision_pieces.build_pieces(
-        [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
+        authored,
         [source.parts for source in sources],
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
     )

@@ -118,9 +118,7 @@ def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
 
 def _proper_rotation(turn: Floats) -> Floats:
     """A rotation (3, 3) that takes shapes about Z to where a rotation, or a reflection, takes them."""
-    nearly: Floats = turn * np.array([np.sign(np.linalg.det(turn)), 1.0, 1.0])
-    left, _, right = np.linalg.svd(nearly)
-    return np.asarray(left @ right)
+    return rotation_of(turn * np.array([np.sign(np.linalg.det(turn)), 1.0, 1.0]))
 
 
 def _is_regular(linear: Floats, offset: Floats) -> bool:

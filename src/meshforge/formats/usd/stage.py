@@ -19,7 +19,7 @@ import numpy as np
 
 from meshforge.common import AssetError, is_beyond_reach
 from meshforge.common.processes import report_progress
-from meshforge.formats.collision_pieces import is_edited
+from meshforge.formats.collision_pieces import CollisionElement, is_edited
 from meshforge.formats.libraries import pxr
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, Document
@@ -128,12 +128,10 @@ BODY = "body"
 
 
 @dataclass(frozen=True, slots=True)
-class PrimRecord:
-    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and non-convex ones."""
+class PrimRecord(CollisionElement):
+    """A prim with collision."""
 
     path: str
-    body: str
-    names: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -189,7 +187,7 @@ def usd(where: str) -> Iterator[list[str]]:
             raise AssetError(problem, where=where, remedy=REMEDY) from error
         finally:
             found = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
-            complaints += dict.fromkeys(found)
+            complaints += sorted(set(found))  # it reads in several threads, whose order is chance
             del delegate
 
 

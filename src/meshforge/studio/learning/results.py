@@ -52,7 +52,7 @@ def view_assessment(
     rows = tuple(
         family.ConfidenceView(
             asset=name,
-            probability=round(one.probability, 4),
+            probability=round(one.confidence, 4),
             reasons=one.reasons,
             state="excluded" if name in assessment.excluded else "signed" if name in signed else "needs review",
             reviewed=name in assessment.looked_at,

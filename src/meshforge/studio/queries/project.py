@@ -16,9 +16,9 @@ from meshforge.project import (
     OpenQuestion,
     Project,
     PropagationState,
-    SignOffState,
 )
 from meshforge.rendering import label_color
+from meshforge.signoff import ResultState
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire import family as wire
@@ -56,8 +56,9 @@ def add_session(
 def _add_confidence(asset: AssetStatus, row: wire.ConfidenceView | None) -> AssetStatus:
     if row is None or asset.review == "accepted":
         return asset
-    states: Mapping[str, SignOffState] = {"signed": "sure", "needs review": "needs review", "excluded": "excluded"}
-    return replace(asset, sign_off=states[row.state], probability=row.probability)
+    states: Mapping[str, ResultState] = {"signed": "sure", "needs review": "needs review", "excluded": "excluded"}
+    result_status = replace(asset.result_status, state=states[row.state], probability=row.probability)
+    return replace(asset, result_status=result_status)
 
 
 def _find_question(assessment: wire.AssessmentView | None) -> OpenQuestion | None:
@@ -154,7 +155,7 @@ def _list_feedback(project: Project) -> Iterator[wire.AnswerView]:
 
 
 _SHARED = (
-    *("hulls", "confidence", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
+    *("hulls", "confidence", "demonstrated", "output", "after", "stale", "error", "flags", "review"),
     *("manual_edits", "sources", "prepared"),
 )
 """What a card has as the status of an asset has it."""
@@ -177,6 +178,7 @@ def build_card(
         labels=tuple(_place_of(label, places) for label in status.labels),
         after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
         note=status.review_note,
+        excluded=status.result_status.excluded,
         picture=picture,
         edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,
