@@ -11,10 +11,9 @@ from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.solid import near, solid
 from meshforge.checks.trials.graspable import Pull, try_grasp
+from meshforge.checks.trials.motion import try_stand, try_swing
 from meshforge.checks.trials.objects import ObjectShape, ProbeShape, objects_on, try_contain, try_pass, try_support
-from meshforge.checks.trials.place import Failure, Place
-from meshforge.checks.trials.stands import try_stand
-from meshforge.checks.trials.swings import try_swing
+from meshforge.checks.trials.scene import Failure, Place
 from meshforge.symbolic import Hull
 
 NO_HULL = "no hull is left"

@@ -94,17 +94,17 @@ def _try_asset(task: GoalTask, job: AssetJob) -> AssetGoals:
         return AssetGoals(job.id, error=describe_error(error, str(job.path)))
 
 
-class _KeptResult(BaseModel):
+class _ResultRecord(BaseModel):
     goal: str
     outcome: GoalOutcome
     why: str = ""
     hulls: tuple[str, ...] = ()
 
 
-class _KeptResults(BaseModel):
+class _ResultFile(BaseModel):
     """By the digest of what decides each; the oldest first."""
 
-    results: dict[str, _KeptResult] = {}
+    results: dict[str, _ResultRecord] = {}
 
 
 class _AssetTrial:
@@ -114,7 +114,7 @@ class _AssetTrial:
         self._task, self._job = task, job
         self._file = task.edit.out / STATE / "goals" / f"{job.id}.json"
         self._known = {} if task.again else _read_kept(self._file)
-        self._present = dict[str, _KeptResult]()
+        self._present = dict[str, _ResultRecord]()
 
     def run(self) -> AssetGoals:
         goals = {name: parse_goal(text, name) for name, text in self._task.goals.items()}
@@ -136,7 +136,7 @@ class _AssetTrial:
             result = try_goal(goal, subject)
             if edited and result.outcome == "failed":
                 _draw_failure(result, subject, picture)
-        self._present[key] = _KeptResult(goal=result.goal, outcome=result.outcome, why=result.why, hulls=result.hulls)
+        self._present[key] = _ResultRecord(goal=result.goal, outcome=result.outcome, why=result.why, hulls=result.hulls)
         return replace(result, objects=()), picture if edited and result.outcome == "failed" else None
 
     def _key(self, goal: Goal, *, edited: bool) -> str:
@@ -194,14 +194,14 @@ class _AssetTrial:
         recent = dict(list(earlier.items())[-_MOST_KEPT:])
         for key in earlier.keys() - recent.keys():
             self._file.with_name(f"{self._file.stem}.{key[:12]}.png").unlink(missing_ok=True)
-        text = _KeptResults(results={**recent, **self._present}).model_dump_json(indent=1)
+        text = _ResultFile(results={**recent, **self._present}).model_dump_json(indent=1)
         write_atomically(self._file, text)
 
 
-def _read_kept(path: Path) -> dict[str, _KeptResult]:
+def _read_kept(path: Path) -> dict[str, _ResultRecord]:
     """What a file keeps; nothing where there is none, or none that can be read, so that it is tried again."""
     try:
-        return _KeptResults.model_validate_json(path.read_bytes()).results
+        return _ResultFile.model_validate_json(path.read_bytes()).results
     except (OSError, ValidationError):
         return {}
 

@@ -300,11 +300,14 @@ def build_operation(text: TreeReader, tree: Node, registry: OperationRegistry[An
         field: _build_argument(text, kind, argument, part)
         for part, (field, argument) in zip(parts, list(takes.items())[:needed], strict=False)
     }
-    made = text.locate_errors(tree, lambda: make_operation(kind, given))
+    problem = text.find_error(tree, partial(make_operation, kind, dict(given)))
     for part in parts[needed:]:
         given |= [_build_option(text, kind, given, part)]
-        made = text.locate_errors(part, partial(make_operation, kind, dict(given)))
-    return made
+        found = text.find_error(part, partial(make_operation, kind, dict(given)))
+        problem = (problem or found) if found else None
+    if problem:
+        raise problem
+    return make_operation(kind, given)
 
 
 def _refuse_planned(text: TreeReader, kind: type[arguments.Operation], parts: Iterable[Node | Token]) -> None:

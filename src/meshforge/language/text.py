@@ -91,6 +91,14 @@ class TreeReader:
         except (ProgramError, PluginError) as error:
             raise self.source.error_at(start_of(at), error.problem, error.remedy, width) from None
 
+    def find_error(self, at: Node | Token, make: Callable[[], object]) -> ProgramError | None:
+        """Return the error with its place in the text where something cannot be made, else None."""
+        try:
+            self.locate_errors(at, make)
+        except ProgramError as error:
+            return error
+        return None
+
     def error_at(self, at: Node | Token, problem: str, remedy: str | None) -> ProgramError:
         return self.source.error_at(start_of(at), problem, remedy)
 

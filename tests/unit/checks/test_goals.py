@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from meshforge.checks.goals.base import Goal, GoalSubject, try_goal
 from meshforge.checks.goals.registry import GOALS, parse_goal
-from meshforge.checks.trials.place import Failure
+from meshforge.checks.trials.scene import Failure
 from meshforge.common import ProgramError
 from meshforge.geometry import Aabb, Box, Pose, rotation_about
 from meshforge.language import OptionArgument, Program, Share, parse_extractor
@@ -101,13 +101,11 @@ def test_what_comes_of_a_goal_on_a_scene(name: str, goal: str, scale: float, tur
 
 def test_a_goal_sees_the_asset_as_its_program_turns_it() -> None:
     scene = Scene.of(TABLE["scene"]["table"], 1.0, 0.0)
-    lying = scene.before.with_hulls(
-        hull.move(Pose(rotation_about(np.array([1.0, 0.0, 0.0]), np.pi / 2), np.zeros(3)))
-        for hull in scene.before.hulls
-    )
+    tilt = Pose(rotation_about(np.array([1.0, 0.0, 0.0]), 0.4), np.zeros(3))
+    leaning = scene.before.with_hulls(hull.move(tilt) for hull in scene.before.hulls)
     for program, wanted in ((Program(), "failed"), (Program.parse(f"orient {UPRIGHT}\n"), "passed")):
-        subject = GoalSubject.of(lying, lying, program)
-        assert try_goal(parse_goal("supports(Geo(Is(top), +Z))"), subject).outcome == wanted
+        subject = GoalSubject.of(leaning, leaning, program)
+        assert try_goal(parse_goal("stands"), subject).outcome == wanted
 
 
 @pytest.mark.parametrize("scale", [0.001, 1000.0])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.checks.goals.base import Goal, GoalSubject, Part
-from meshforge.checks.trials.place import Failure, Place, mm
+from meshforge.checks.trials.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Aabb, Floats
 from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, WordArgument
@@ -19,6 +19,7 @@ _SPOTS = (0.5, 0.3, 0.7)
 """Where a gripper may take a bar, along it."""
 _REACH = 0.2  # of the length of a bar, half the height of fingers
 _MOST_TRIED = 6
+_CORE = 0.5  # of the size of a hull, within which something must be left of it
 _SHALLOW = 0.2  # of a bar, that fingers reach over at least
 
 
@@ -42,10 +43,13 @@ class Graspable(Goal):
         from meshforge.checks.trials.graspable import try_grasp  # lazy: MuJoCo takes 0.3 s
 
         handles = {hull.name for hull in subject.select_after(self.handle)}
-        rest = [hull for hull in subject.hulls if hull.name not in handles]
         for number, part in enumerate(subject.select_parts(self.handle), 1):
-            outward = part.box.center - part.turn.T @ subject.box.center
-            grips = list(find_grips(part, part.lower_hulls(rest), outward, self.width, 2 * subject.touching))
+            outward, hulls = part.box.center - part.turn.T @ subject.box.center, part.lower_hulls(subject.hulls)
+            there = {hull.name for hull in hulls if _is_within(hull, part)}
+            if not there:
+                return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
+            rest = [hull for hull in hulls if hull.name not in handles | there]
+            grips = list(find_grips(part, rest, outward, self.width, 2 * subject.touching))
             if not grips:
                 return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
             first: Failure | None = None
@@ -65,6 +69,12 @@ class Graspable(Goal):
         if self.width is not None and self.width <= thin:
             return f"it is {mm(thin)} thick, and the gripper opens {mm(self.width)}"
         return "fingers cannot come to it from any side"
+
+
+def _is_within(hull: Hull, part: Part) -> bool:
+    """Whether a hull is in the middle of one that a part is made of."""
+    reach = [(box.center, _CORE * box.size / 2) for box in (one.aabb for one in part.hulls)]
+    return any(_clip(hull, Aabb(middle - half, middle + half)) for middle, half in reach)
 
 
 def find_grips(

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from meshforge.checks.goals import rooms
-from meshforge.checks.goals.base import Goal, GoalSubject, UntriedError
-from meshforge.checks.trials.place import Failure, Place, mm
+from meshforge.checks.goals.base import Goal, GoalSubject, TrialError
+from meshforge.checks.trials.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Floats
 from meshforge.language import (
@@ -58,7 +58,7 @@ class Supports(Goal):
                 if top >= low
             ]
         if not placed:
-            raise UntriedError(f"{self.surface} has no surface to put things on")
+            raise TrialError(f"{self.surface} has no surface to put things on")
         return objects.try_support(subject.hulls, placed, subject.touching)
 
 
@@ -85,7 +85,7 @@ class Contains(Goal):
             at = room.at + np.array([0.0, 0.0, half[2] + subject.touching - room.size[2]])
             places[f"room {number}"] = part.lift(replace(room, at=at, size=half))
         if not places:
-            raise UntriedError(f"{self.holder} has no room that a thing could lie in")
+            raise TrialError(f"{self.holder} has no room that a thing could lie in")
         return objects.try_contain(subject.hulls, places, self.shape, subject.touching)  # type: ignore[arg-type]
 
 
@@ -116,7 +116,7 @@ class Passes(Goal):
             size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
             ways[f"opening {number}"] = part.lift(replace(way, size=size))
         if not ways:
-            raise UntriedError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
+            raise TrialError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
         return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]
 
 

@@ -3,9 +3,8 @@
 from meshforge.checks.goals.base import Goal, MissingGoal
 from meshforge.checks.goals.distances import Clear, Fits
 from meshforge.checks.goals.graspable import Graspable
+from meshforge.checks.goals.motion import Stands, Swings
 from meshforge.checks.goals.objects import Contains, Passes, Supports
-from meshforge.checks.goals.stands import Stands
-from meshforge.checks.goals.swings import Swings
 from meshforge.language import OperationRegistry, parse_operation
 
 GOALS: OperationRegistry[Goal] = OperationRegistry(

@@ -15,7 +15,7 @@ from meshforge.checks.grid import (
     voxelize_surface,
 )
 from meshforge.checks.surface_samples import join_corners
-from meshforge.checks.trials.place import Place
+from meshforge.checks.trials.scene import Place
 from meshforge.common import GeometryError
 from meshforge.geometry import Aabb, Floats, Polytope, convex_hull
 from meshforge.symbolic import Hull, Surface
@@ -47,8 +47,8 @@ def find_room(hulls: Sequence[Hull], surfaces: Sequence[Surface]) -> Place | Non
     taken = _voxelize_shown(grid, surfaces, hulls, around)
     if not taken.any():
         taken = voxelize_hulls(grid, [hull.shape for hull in hulls])
-    above: Mask = np.maximum.accumulate(taken, axis=2)
-    free = np.asarray(flood_from_outside(taken) & around & above, dtype=np.bool_)
+    above = np.maximum.accumulate(taken, axis=2)
+    free: Mask = np.logical_and.reduce([flood_from_outside(taken), around, above])
     return _largest_box(grid, free)
 
 

@@ -6,9 +6,20 @@ from typing import Any, Literal
 import mujoco
 import numpy as np
 
-from meshforge.checks.trials.contact import BREAKS_DOWN, advance, collide, deepest
-from meshforge.checks.trials.place import Failure, Place, mm
-from meshforge.checks.trials.scene import add_hulls, add_shape, blank, step_for, weigh
+from meshforge.checks.trials.scene import (
+    BREAKS_DOWN,
+    Failure,
+    Place,
+    add_hulls,
+    add_shape,
+    advance,
+    blank,
+    collide,
+    deepest,
+    mm,
+    step_for,
+    weigh,
+)
 from meshforge.geometry import Box, Floats, Pose
 from meshforge.symbolic import Hull
 

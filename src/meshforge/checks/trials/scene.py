@@ -1,17 +1,53 @@
-"""MuJoCo scenes of hulls where they are, Z up, and objects that are tried on them."""
+"""MuJoCo scenes of hulls where they are, Z up, and objects that are tried on them; what touches what there, how deep,
+and why something does not work."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 
-from meshforge.checks.trials.place import describe_hull
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, inertia, spans_volume
 from meshforge.symbolic import Hull
 
+TOLERANCE = 0.002
+"""What counts as touching, of the diagonal of an asset."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Place:
+    """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m], or as a trial says; axes: the columns of a
+    rotation (3, 3)."""
+
+    at: Floats
+    size: Floats
+    axes: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Failure:
+    """Why something does not work, in a sentence. hulls: names of those at fault; objects: what was tried there, where
+    it was put."""
+
+    text: str
+    hulls: tuple[str, ...] = ()
+    objects: tuple[Shape, ...] = ()
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def describe_hull(hull: Hull) -> str:
+    """Return a hull in words, which are also the name of its geom."""
+    return f"{hull.name} ({hull.label or 'no label'})"
+
+
+def mm(length: float) -> str:
+    """Return a length [m] in words."""
+    return f"{1000 * length:.1f} mm"
+
+
 FRICTION = 0.6
-_TYPES = mujoco.mjtGeom
 _ROUND = (Capsule, Cylinder, Ellipsoid, Sphere)
 
 
@@ -22,6 +58,8 @@ def step_for(size: float) -> float:
 
 def blank(step: float = 0.002, gravity: float = 9.81, give: float = 0.0) -> Any:
     """Return an empty scene; step [s], gravity [m/s^2]; give: how slowly contacts resist [s], by default at once."""
+    import mujoco  # lazy: 0.3 s
+
     spec = mujoco.MjSpec()
     spec.memory = 1 << 25
     spec.compiler.balanceinertia = True
@@ -55,6 +93,8 @@ def add_hulls(spec: Any, body: Any, hulls: Iterable[Hull], object_side: bool = F
 def add_shape(spec: Any, body: Any, name: str, shape: Shape, object_side: bool = True, **fields: Any) -> Any:
     """Add a shape to a body as a geom, and return that; objects touch hulls, not each other. None where the shape has
     no volume."""
+    import mujoco  # lazy: as above
+
     fields |= {"contype": int(object_side), "conaffinity": int(not object_side)}
     if shape.is_primitive:
         return _primitive(body, name, shape, fields)
@@ -62,21 +102,24 @@ def add_shape(spec: Any, body: Any, name: str, shape: Shape, object_side: bool =
         return None
     mesh = spec.add_mesh(name=name, uservert=np.asarray(shape.vertices).ravel())
     mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
-    return body.add_geom(name=name, type=_TYPES.mjGEOM_MESH, meshname=name, **fields)
+    return body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, **fields)
 
 
 def _primitive(body: Any, name: str, shape: Any, fields: dict[str, Any]) -> Any:
+    import mujoco  # lazy: as above
+
+    types = mujoco.mjtGeom
     match shape:
         case Box():
-            kind, size = _TYPES.mjGEOM_BOX, shape.half
+            kind, size = types.mjGEOM_BOX, shape.half
         case Sphere():
-            kind, size = _TYPES.mjGEOM_SPHERE, np.array([shape.radius, 0.0, 0.0])
+            kind, size = types.mjGEOM_SPHERE, np.array([shape.radius, 0.0, 0.0])
         case Ellipsoid():
-            kind, size = _TYPES.mjGEOM_ELLIPSOID, shape.radii
+            kind, size = types.mjGEOM_ELLIPSOID, shape.radii
         case Capsule():
-            kind, size = _TYPES.mjGEOM_CAPSULE, np.array([shape.radius, shape.half_length, 0.0])
+            kind, size = types.mjGEOM_CAPSULE, np.array([shape.radius, shape.half_length, 0.0])
         case Cylinder():
-            kind, size = _TYPES.mjGEOM_CYLINDER, np.array([shape.radius, shape.half_length, 0.0])
+            kind, size = types.mjGEOM_CYLINDER, np.array([shape.radius, shape.half_length, 0.0])
         case _:
             raise AssertionError(shape.kind)
     pose: Pose = shape.pose
@@ -101,3 +144,58 @@ def place(model: Any, data: Any, name: str, at: Floats, rotation: Floats | None 
     begin = model.joint(name).qposadr[0]
     turn = Pose.identity() if rotation is None else Pose(rotation, np.zeros(3))
     data.qpos[begin : begin + 7] = [*at, *turn.to_quaternion()]
+
+
+BREAKS_DOWN = "the simulation breaks down"
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """Two geoms by name, the object first, and how deep they are in each other [m]."""
+
+    mover: str
+    other: str
+    depth: float
+
+    def names(self, hulls: Iterable[Hull]) -> tuple[str, ...]:
+        """Return the names of those hulls that touch."""
+        return tuple(hull.name for hull in hulls if describe_hull(hull) in (self.mover, self.other))
+
+
+def collide(model: Any, data: Any) -> None:
+    """Find all contacts for the positions as they are set."""
+    import mujoco  # lazy: as above
+
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_collision(model, data)
+
+
+def deepest(model: Any, data: Any, least: float, apart: frozenset[frozenset[str]] = frozenset()) -> Touch | None:
+    """Return the deepest contact deeper than `least` [m], None where there is none; apart: pairs of names of hulls
+    whose contacts do not count."""
+    contact = data.contact
+    for k in np.argsort(contact.dist, kind="stable"):
+        depth = -float(contact.dist[k])
+        if depth <= least:
+            return None
+        pair = sorted(map(int, contact.geom[k]), key=lambda geom: -int(model.geom_contype[geom]))
+        mover, other = (model.geom(geom).name for geom in pair)
+        if not apart or frozenset(name.rpartition(" (")[0] for name in (mover, other)) not in apart:
+            return Touch(mover, other, depth)
+    return None
+
+
+def advance(model: Any, data: Any, seconds: float) -> bool:
+    """Simulate for so long; return whether the simulation holds up."""
+    import mujoco  # lazy: as above
+
+    steps = max(1, round(seconds / model.opt.timestep))
+    mujoco.mj_step(model, data, nstep=steps)
+    return not any(warning.number for warning in data.warning)
+
+
+def calm(data: Any, speed: float = 0.001, turning: float = 0.01) -> bool:
+    """Return whether all free bodies are at rest: speed [m/s], turning [rad/s]."""
+    velocity = np.abs(np.asarray(data.qvel).reshape(-1, 6))
+    return bool(velocity[:, :3].max() < speed and velocity[:, 3:].max() < turning)

@@ -16,7 +16,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import mask_of
 from meshforge.synthesis.candidates.belief import choose_candidate, compute_beliefs, count_idle, measure_evidence
 from meshforge.synthesis.options import OutOfTime
-from meshforge.synthesis.search.bank import Bank, Goal, HalfTerm, half_terms_for, rows_for, satisfies
+from meshforge.synthesis.search.bank import Bank, HalfTerm, SearchTarget, half_terms_for, rows_for, satisfies
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import Key, Term
 
@@ -65,41 +65,41 @@ def _sort_terms(found: dict[int, Term]) -> tuple[Term, ...]:
 
 
 class _Collector:
-    """Puts consistent terms together: one operand from the bank, the other by the goal that is left for it."""
+    """Puts consistent terms together: one operand from the bank, the other by the target that is left for it."""
 
     def __init__(self, search: Search) -> None:
         self._need, self._shown = search.need, (1 << search.width) - 1
         decisive = mask_of(search.decisive)
-        self._goal = Goal(search.need & decisive, decisive & ~search.need)
+        self._target = SearchTarget(search.need & decisive, decisive & ~search.need)
         self._budget, self._left = search.budget, search.options.effort
         self._stored = max(search.options.stored, 1)
         self._bank = Bank(search.field.terms, search.field.width, search.budget)
-        self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
+        self._known: dict[tuple[SearchTarget, int], tuple[Term, ...]] = {}
 
     def terms_of_size(self, size: int, known: Container[int]) -> dict[int, Term]:
-        drafts = (d for d in self._drafts(self._goal, size) if d[0] & self._shown == self._need and d[0] not in known)
+        drafts = (d for d in self._drafts(self._target, size) if d[0] & self._shown == self._need and d[0] not in known)
         return {term.bits: term for term in _keep_firsts(drafts)}
 
-    def _drafts(self, goal: Goal, size: int) -> Iterator[TermDraft]:
+    def _drafts(self, target: SearchTarget, size: int) -> Iterator[TermDraft]:
         for leaf in self._bank.leaves(size):
-            if satisfies(leaf.bits, goal):
+            if satisfies(leaf.bits, target):
                 yield leaf.bits, leaf.key, None, leaf
         for small in range(1, (size - 1) // 2 + 1):
             self._budget.check()
-            for half in half_terms_for(self._bank.level(small), goal, helpful=False):
+            for half in half_terms_for(self._bank.level(small), target, helpful=False):
                 for other in self._operands(half.rest, size - 1 - small):
                     yield half.bits(other.bits), half.key(other.key), half, other
 
-    def _operands(self, goal: Goal, size: int) -> Iterable[Term]:
+    def _operands(self, target: SearchTarget, size: int) -> Iterable[Term]:
         found: Iterable[Term]
         if size > self._stored:
-            if (goal, size) not in self._known:
-                self._known[goal, size] = _keep_firsts(self._drafts(goal, size))
-            found = self._known[goal, size]
+            if (target, size) not in self._known:
+                self._known[target, size] = _keep_firsts(self._drafts(target, size))
+            found = self._known[target, size]
             count = len(found)
         else:
             level = self._bank.level(size)
-            rows = rows_for(level, goal)
+            rows = rows_for(level, target)
             found, count = level.select_rows(rows) if rows else (), rows.bit_count()
         self._left -= LOOKUP_COST + count
         if count and self._left < 0:

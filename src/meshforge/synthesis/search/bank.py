@@ -1,7 +1,7 @@
 """Every selection that small extractors make, each with the first extractor that makes it, grown size by size; an
-index that finds at once all that hold one set of hulls and avoid another; and the goal-directed search by it.
+index that finds at once all that hold one set of hulls and avoid another; and the target-directed search by it.
 
-Knowing one operand of a set operator turns the goal of the whole into a wider goal for the other operand, and the
+Knowing one operand of a set operator turns the target of the whole into a wider target for the other operand, and the
 index finds at once what satisfies it.
 """
 
@@ -170,7 +170,7 @@ def _transpose(rows: Sequence[int], width: int) -> list[int]:
     return [to_bits(column) for column in unpack_bits(rows, width).T]
 
 
-class Goal(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thousands
+class SearchTarget(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thousands
     """Met by every selection with all of `need` and nothing of `avoid`; what is in neither is free."""
 
     need: int
@@ -178,11 +178,11 @@ class Goal(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thous
 
 
 class HalfTerm(NamedTuple):
-    """A set operator with one operand known, and the goal of the other; as_right: whether the known one is right."""
+    """A set operator with one operand known, and the target of the other; as_right: whether the known one is right."""
 
     operator: SetOperator
     known: Term
-    rest: Goal
+    rest: SearchTarget
     as_right: bool = False
 
     def bits(self, other: int) -> int:
@@ -204,7 +204,7 @@ class HalfTerm(NamedTuple):
 
 
 class Completion:
-    """Finds the first term of exactly one size that meets a goal, given that no smaller term meets it.
+    """Finds the first term of exactly one size that meets a target, given that no smaller term meets it.
 
     stored: the size up to which operands are looked up in the bank; goals: how many goals of missing operands it has
     looked at.
@@ -212,56 +212,56 @@ class Completion:
 
     def __init__(self, bank: Bank, budget: TimeBudget, stored: int) -> None:
         self._bank, self._budget, self._stored = bank, budget, stored
-        self._known: dict[tuple[Goal, int], Term | None] = {}
+        self._known: dict[tuple[SearchTarget, int], Term | None] = {}
         self.goals = 0
 
-    def find_first(self, goal: Goal, size: int) -> Term | None:
-        """Return the first term of that size that meets the goal. Raises OutOfTime."""
-        leaves = [leaf for leaf in self._bank.leaves(size) if satisfies(leaf.bits, goal)]
-        return first_term([*leaves, *self._compounds(goal, size)])
+    def find_first(self, target: SearchTarget, size: int) -> Term | None:
+        """Return the first term of that size that meets the target. Raises OutOfTime."""
+        leaves = [leaf for leaf in self._bank.leaves(size) if satisfies(leaf.bits, target)]
+        return first_term([*leaves, *self._compounds(target, size)])
 
-    def _find_operand(self, goal: Goal, size: int) -> Term | None:
+    def _find_operand(self, target: SearchTarget, size: int) -> Term | None:
         self.goals += 1
         if size <= self._stored:
             level = self._bank.level(size)
-            return next(level.select_rows(rows_for(level, goal)), None)
-        if (goal, size) not in self._known:
-            self._known[goal, size] = self.find_first(goal, size)
-        return self._known[goal, size]
+            return next(level.select_rows(rows_for(level, target)), None)
+        if (target, size) not in self._known:
+            self._known[target, size] = self.find_first(target, size)
+        return self._known[target, size]
 
-    def _compounds(self, goal: Goal, size: int) -> Iterator[Term]:
-        """Of each set operator whose smaller operand is known, the first that meets the goal."""
+    def _compounds(self, target: SearchTarget, size: int) -> Iterator[Term]:
+        """Of each set operator whose smaller operand is known, the first that meets the target."""
         for small in range(1, (size - 1) // 2 + 1):
             self._budget.check()
-            for half in half_terms_for(self._bank.level(small), goal, helpful=True):
+            for half in half_terms_for(self._bank.level(small), target, helpful=True):
                 other = self._find_operand(half.rest, size - 1 - small)
                 if other:
                     yield half.complete(other)
 
 
-def satisfies(bits: int, goal: Goal) -> bool:
-    """Return whether a selection meets a goal."""
-    return bits & goal.need == goal.need and not bits & goal.avoid
+def satisfies(bits: int, target: SearchTarget) -> bool:
+    """Return whether a selection meets a target."""
+    return bits & target.need == target.need and not bits & target.avoid
 
 
-def rows_for(level: Level, goal: Goal) -> int:
-    """Return the rows of the terms of a level that meet a goal."""
-    holding = level.columns.all_with(goal.need)
-    return holding & level.columns.all_without(goal.avoid) if holding else 0
+def rows_for(level: Level, target: SearchTarget) -> int:
+    """Return the rows of the terms of a level that meet a target."""
+    holding = level.columns.all_with(target.need)
+    return holding & level.columns.all_without(target.avoid) if holding else 0
 
 
-def half_terms_for(level: Level, goal: Goal, helpful: bool) -> Iterator[HalfTerm]:
-    """Set operators with one operand from the level that can meet the goal.
+def half_terms_for(level: Level, target: SearchTarget, helpful: bool) -> Iterator[HalfTerm]:
+    """Set operators with one operand from the level that can meet the target.
 
-    helpful: only where the operand leaves less to need or to avoid; else the other one would meet the goal alone.
+    helpful: only where the operand leaves less to need or to avoid; else the other one would meet the target alone.
     """
-    need, avoid, columns = goal.need, goal.avoid, level.columns
+    need, avoid, columns = target.need, target.avoid, level.columns
     holding, clear, apart = columns.all_with(need), columns.all_without(avoid), columns.all_without(need)
     for x in level.select_rows(clear & ~apart if helpful else clear):
-        yield HalfTerm(Union, x, Goal(need & ~x.bits, avoid))
+        yield HalfTerm(Union, x, SearchTarget(need & ~x.bits, avoid))
     for x in level.select_rows(holding):
         if avoid & ~x.bits or not helpful:
-            yield HalfTerm(Intersect, x, Goal(need, avoid & x.bits))
-        yield HalfTerm(Diff, x, Goal(avoid & x.bits, need))
+            yield HalfTerm(Intersect, x, SearchTarget(need, avoid & x.bits))
+        yield HalfTerm(Diff, x, SearchTarget(avoid & x.bits, need))
     for x in level.select_rows(apart & ~clear if helpful else apart):
-        yield HalfTerm(Diff, x, Goal(need, avoid & ~x.bits), as_right=True)
+        yield HalfTerm(Diff, x, SearchTarget(need, avoid & ~x.bits), as_right=True)

@@ -12,7 +12,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.search.bank import Bank, Completion, Goal, positions
+from meshforge.synthesis.search.bank import Bank, Completion, SearchTarget, positions
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Term
 
@@ -131,10 +131,10 @@ class Search:
         bank = Bank(terms, len(groups), self.budget)
         completion = Completion(bank, self.budget, self.options.stored)
         need = _pack(self.need, groups, whole)
-        goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
+        target = SearchTarget(need, ((1 << len(groups)) - 1) & ~need)
         try:
             for size in range(1 + self._exhausted, self.options.max_size + 1):
-                term = completion.find_first(goal, size)
+                term = completion.find_first(target, size)
                 if term:
                     return term.extractor
                 self._exhausted = size

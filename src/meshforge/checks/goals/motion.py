@@ -1,13 +1,13 @@
-"""The goal that what joints move goes through its range."""
+"""Goals on motion: that an asset stands, and that what joints move goes through its range."""
 
 from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, UntriedError
+from meshforge.checks.goals.base import Goal, GoalSubject, TrialError
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree
-from meshforge.checks.trials.place import Failure, Place
+from meshforge.checks.trials.scene import Failure, Place
 from meshforge.common import require_mujoco
 from meshforge.geometry import Floats, Pose
 from meshforge.language import (
@@ -21,6 +21,17 @@ from meshforge.language import (
 from meshforge.symbolic import Hull, Joint
 
 _MOTIONS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
+
+
+@dataclass(frozen=True, slots=True)
+class Stands(Goal):
+    """Dropped from 1 cm as one rigid body, leaning a little, it ends upright and at rest."""
+
+    def find_failure(self, subject: GoalSubject) -> Failure | None:
+        require_mujoco("a goal")
+        from meshforge.checks.trials.motion import try_stand  # lazy: MuJoCo takes 0.3 s
+
+        return try_stand(subject.hulls, subject.end.diagonal)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +66,7 @@ class Swings(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials.swings import try_swing  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.trials.motion import try_swing  # lazy: MuJoCo takes 0.3 s
 
         moved = subject.select_after(self.leaf)
         if not moved:
@@ -69,7 +80,7 @@ class Swings(Goal):
             return try_swing(moved, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
         if not joints:
-            raise UntriedError(f"no joint moves {self.leaf}; give about, axis and angle")
+            raise TrialError(f"no joint moves {self.leaf}; give about, axis and angle")
         for joint, bodies in joints:
             moving = [hull for hull in subject.hulls if hull.body in bodies]
             rest = [hull for hull in subject.hulls if hull.body not in bodies]
@@ -112,11 +123,11 @@ def _list_below(tree: JointTree, body: str) -> list[str]:
 
 
 def _place_of(joint: Joint, upright: Floats) -> Place:
-    """Where a joint is, and its range. Raises UntriedError for one that has none."""
+    """Where a joint is, and its range. Raises TrialError for one that has none."""
     if joint.kind not in _MOTIONS or joint.coupling is not None:
-        raise UntriedError(f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}")
+        raise TrialError(f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}")
     if joint.limits is None and joint.kind == "prismatic":
-        raise UntriedError(f"the joint {joint.name or joint.child!r} slides without limits")
+        raise TrialError(f"the joint {joint.name or joint.child!r} slides without limits")
     low, high = joint.limits or (0.0, 2 * np.pi)
     scale = 1.0 if joint.kind == "prismatic" else float(np.degrees(1.0))
     pose = Pose(upright, np.zeros(3))
