@@ -10,6 +10,8 @@ __getattr__, __all__ = export_lazily(
         "clearance": "OF_EDIT Clearance measure_kept_space",
         "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
+        "goals.base": "Goal GoalSubject TrialError",
+        "trials.scene": "Failure",
         "physics.simulation": "BEFORE Physics",
         "meshforge.engines": "Finding Severity",
     },

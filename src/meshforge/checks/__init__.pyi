@@ -17,6 +17,10 @@ from meshforge.checks.examination import check as check
 from meshforge.checks.examination import draw_examination as draw_examination
 from meshforge.checks.examination import examine_mesh as examine_mesh
 from meshforge.checks.fit import MeshFit as MeshFit
+from meshforge.checks.goals.base import Goal as Goal
+from meshforge.checks.goals.base import GoalSubject as GoalSubject
+from meshforge.checks.goals.base import TrialError as TrialError
+from meshforge.checks.trials.scene import Failure as Failure
 from meshforge.checks.physics.simulation import BEFORE as BEFORE
 from meshforge.checks.physics.simulation import Physics as Physics
 from meshforge.engines import Finding as Finding

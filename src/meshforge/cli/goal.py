@@ -1,7 +1,7 @@
 """`meshforge goal`: what assets must do, tried on a family, and kept with the project."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from shutil import copyfile
 from typing import Annotated, Any
@@ -16,54 +16,59 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.project import Project
-from meshforge.project.goals import read_goals, set_goal, try_goals
 
 _USAGES = "; ".join(kind.usage() for kind in GOALS.built_in.values())
 
 
-def goal(
-    project: Annotated[Path, typer.Argument(help="A project folder.")],
-    expression: Annotated[
+@dataclass(frozen=True, slots=True)
+class GoalArguments:
+    """What is typed after `meshforge goal`."""
+
+    project: Annotated[Path, typer.Argument(help="A project folder.")]
+    goal: Annotated[
         str | None,
         typer.Argument(metavar="[GOAL]", help="A goal or the name of a kept one; all kept ones without it."),
-    ] = None,
-    add: Annotated[str | None, typer.Option("--add", metavar="NAME", help="Keep GOAL in meshforge.toml.")] = None,
-    remove: Annotated[str | None, typer.Option("--remove", metavar="NAME", help="Forget a kept goal.")] = None,
-    strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where a goal could not be tried.")] = False,
-    again: Annotated[bool, typer.Option("--again", help="Try also what was tried before.")] = False,
-    pictures: Annotated[Path | None, typer.Option("--pictures", help="Folder for pictures of failures.")] = None,
-    execution: options.ExecutionArguments = options.EXECUTION,
-    json: options.Json = False,
-) -> None:
+    ] = None
+    add: Annotated[str | None, typer.Option("--add", metavar="NAME", help="Keep GOAL in meshforge.toml.")] = None
+    remove: Annotated[str | None, typer.Option("--remove", metavar="NAME", help="Forget a kept goal.")] = None
+    strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where a goal could not be tried.")] = False
+    again: Annotated[bool, typer.Option("--again", help="Try also what was tried before.")] = False
+    pictures: Annotated[Path | None, typer.Option("--pictures", help="Folder for pictures of failures.")] = None
+    execution: options.ExecutionArguments = options.EXECUTION
+    json: options.Json = False
+
+
+@options.takes(GoalArguments)
+def goal(given: GoalArguments) -> None:
     """Try what assets must do, such as 'supports(Is(top))', on all of a project, before and after its program.
 
     Goals are stands, supports(E), contains(E), graspable(E), passes(E), swings(E), clear(E) and fits(E) on an extractor
     E. Lengths are metres, or have a unit: width = 80 mm. Exit code 1 when a goal fails on an asset, or could be tried
     on none.
     """
-    opened = Project.open(project)
-    if remove is not None:
-        if expression is not None or add is not None:
+    project = Project.open(given.project)
+    if given.remove is not None:
+        if given.goal is not None or given.add is not None:
             raise UsageError("--remove goes alone", remedy="meshforge goal PROJECT --remove NAME")
-        set_goal(opened, remove, None)
-        remark(f"{escape_name(remove)} is no goal any more")
+        project.set_goal(given.remove, None)
+        remark(f"{escape_name(given.remove)} is no goal any more")
         return
-    if add is not None:
-        if expression is None:
+    if given.add is not None:
+        if given.goal is None:
             raise UsageError("--add needs a goal", remedy=f"Goals: {_USAGES}")
-        set_goal(opened, add, expression)
-    goals = _choose_goals(opened, expression, add)
+        project.set_goal(given.add, given.goal)
+    goals = _choose_goals(project, given.goal, given.add)
     if not goals:
         remedy = "meshforge goal PROJECT 'supports(Is(top))' --add NAME"
-        raise UsageError("the project has no goals", where=str(project), remedy=remedy)
-    count = len(opened.assets())
+        raise UsageError("the project has no goals", where=str(given.project), remedy=remedy)
+    count = len(project.assets())
     with progress(count, "trying goals") as advance:
-        seconds = GOAL_EXECUTION.timeout if execution.timeout is None else execution.timeout or None
-        run = replace(execution.to_options(), progress=advance, timeout=seconds)
-        found = list(try_goals(opened, goals, again=again, execution=run))
-    if pictures:
-        _copy_pictures(found, pictures)
-    if json:
+        seconds = GOAL_EXECUTION.timeout if given.execution.timeout is None else given.execution.timeout or None
+        run = replace(given.execution.to_options(), progress=advance, timeout=seconds)
+        found = list(project.try_goals(goals, again=given.again, execution=run))
+    if given.pictures:
+        _copy_pictures(found, given.pictures)
+    if given.json:
         print_json({"goals": [_to_json(name, one, found) for name, one in goals.items()]})
     else:
         for name, kind in goals.items():
@@ -71,11 +76,12 @@ def goal(
     for one in found:
         if one.error:
             remark(one.error)
-    raise typer.Exit(int(any(one.error for one in found) or any(_has_failed(name, found, strict) for name in goals)))
+    failed = any(one.error for one in found) or any(_has_failed(name, found, given.strict) for name in goals)
+    raise typer.Exit(int(failed))
 
 
 def _choose_goals(project: Project, expression: str | None, add: str | None) -> Mapping[str, Goal]:
-    kept = read_goals(project)
+    kept = project.read_goals()
     if expression is None:
         return kept
     if add is not None:
@@ -87,10 +93,8 @@ def _choose_goals(project: Project, expression: str | None, add: str | None) -> 
 
 def _has_failed(name: str, found: list[AssetGoals], strict: bool) -> bool:
     outcomes = [one.after[name].outcome for one in found if name in one.after]
-    is_tried = any(outcome != "untried" for outcome in outcomes)
-    return not is_tried or any(
-        outcome in ("failed", "broken") or (strict and outcome == "untried") for outcome in outcomes
-    )
+    wrong = {"failed", "broken", *(["untried"] if strict else [])}
+    return set(outcomes) <= {"untried"} or not wrong.isdisjoint(outcomes)
 
 
 def _describe_goal(name: str, goal: Goal, found: list[AssetGoals]) -> list[str]:

@@ -236,7 +236,7 @@ class QuantityArgument(ArgumentType):
         self.wants = f"{_WANTS[unit]} such as {example}{f', or a share of {of} such as 80%' if of else ''}"
 
     def read(self, kind: TokenKind, text: str) -> float | Share | None:
-        if kind != "quantity":
+        if kind not in ("quantity", "number"):
             return None
         number = text.rstrip("%" + "".join(UNITS))
         unit = text[len(number) :]

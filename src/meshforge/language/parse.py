@@ -386,7 +386,10 @@ def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: No
     token = _bare_token(given)
     if token is None or token.type not in _TOKEN_KINDS:
         return None
-    return argument.read(_TOKEN_KINDS[token.type], text.unquote(token) if token.type == "STRING" else str(token))
+    if token.type == "QUANTITY" and not token.rstrip()[-1].isdecimal() and token.rstrip()[-1] != ".":
+        return argument.read("quantity", str(token))
+    kind = "number" if token.type == "QUANTITY" else _TOKEN_KINDS[token.type]
+    return argument.read(kind, text.unquote(token) if token.type == "STRING" else str(token).rstrip())
 
 
 def _value_of(argument: arguments.ArgumentType) -> arguments.ArgumentType:

@@ -1,6 +1,7 @@
 """The goals of a project, kept in meshforge.toml, and what comes of them on its assets."""
 
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 
 from meshforge import batch
 from meshforge.checks.goals.base import Goal
@@ -22,6 +23,16 @@ def read_goals(store: Store) -> dict[str, Goal]:
     return found
 
 
+def rename_in_goals(goals: Mapping[str, str], old: str, new: str) -> dict[str, str]:
+    """Return the texts of goals with a label by another name; those that do not have it, or do not parse, stay."""
+    found = dict(goals)
+    for name, text in goals.items():
+        with suppress(ProgramError):
+            goal = parse_goal(text)
+            found[name] = text if goal.rename(old, new) == goal else str(goal.rename(old, new))
+    return found
+
+
 def set_goal(store: Store, name: str, text: str | None) -> None:
     """Keep a goal under a name, or forget it by None. Raises ProgramError for a text that does not parse, ProjectError
     for a name that there is not."""
@@ -36,7 +47,7 @@ def set_goal(store: Store, name: str, text: str | None) -> None:
 
 def try_goals(
     store: Store,
-    goals: Mapping[str, Goal] | None = None,
+    goals: Mapping[str, Goal | str] | None = None,
     *,
     again: bool = False,
     only: Collection[str] | None = None,
@@ -44,12 +55,16 @@ def try_goals(
 ) -> Iterator[batch.AssetGoals]:
     """Yield what comes of goals on every asset that is not excluded, or on some, before and after the program.
 
-    goals: by name, by default those of the project; again: also where that is known. Without a program they are tried
-    on the assets as they are. Raises ProjectError as `read_goals`.
+    goals: or their texts, by name, by default those of the project; again: also where that is known. Without a program
+    they are tried on the assets as they are. Raises ProjectError as `read_goals`, ProgramError for a text that does not
+    parse.
     """
     chosen = read_goals(store) if goals is None else goals
+    texts = {
+        name: str(parse_goal(one, name, store.words) if isinstance(one, str) else one) for name, one in chosen.items()
+    }
     program = store.program() or Program(orient=store.orientation)
     away = store.exclusions().keys() - set(only or ())
     jobs = [job for job in build_jobs(store, only) if job.id not in away]
-    task = batch.GoalTask(build_task(store, program), {name: str(goal) for name, goal in chosen.items()}, again)
+    task = batch.GoalTask(build_task(store, program), texts, again)
     yield from batch.try_goals(jobs, task, execution)

@@ -9,6 +9,7 @@ from meshforge import batch, labels
 from meshforge.language import Orient
 from meshforge.project import (
     demonstrations,
+    goals,
     learn,
     new_assets,
     overview,
@@ -89,6 +90,9 @@ class Project(Store):
     update_classes = learn.update_classes
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule
+    read_goals = goals.read_goals
+    set_goal = goals.set_goal
+    try_goals = goals.try_goals
     work = run.build_work
     jobs = run.build_jobs
 

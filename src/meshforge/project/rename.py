@@ -12,6 +12,7 @@ from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sou
 from meshforge.labels.like_reference import read_references
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
+from meshforge.project.goals import rename_in_goals
 from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import find_bases, find_inputs, is_written
 from meshforge.store import AssetOutput, Store, VerdictEvent, find_outputs
@@ -151,11 +152,14 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
 
 
 def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: str, new: str) -> str:
-    """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
+    """The settings with the label's other name in the patterns that say what names mean, in goals, and where it is
+    described."""
     descriptions, table = settings.vlm.descriptions, "vlm.descriptions"
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):
             text = files.set_value(text, pattern, new, "names")
+        for name, goal in rename_in_goals(settings.goals, old, new).items():
+            text = text if goal == settings.goals[name] else files.set_value(text, name, goal, "goals")
         if old in descriptions:
             text = files.set_value(files.set_value(text, new, descriptions[old], table), old, None, table)
     except ProjectError as error:

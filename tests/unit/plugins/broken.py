@@ -6,7 +6,7 @@ HEAD = """
 from dataclasses import dataclass, field
 import sys
 import numpy as np
-from meshforge.checks import Check, Finding
+from meshforge.checks import Check, Finding, Goal
 from meshforge.formats import Format, Output
 from meshforge.geometry import Polytope, Pose, convex_hull
 from meshforge.labels import AssetLabeler
@@ -70,6 +70,12 @@ class Namer(Labeler):
 CHECK = """
 class Look(Check):
     def examine(self, mesh, before):
+        {body}
+"""
+GOAL = """
+@dataclass(frozen=True, slots=True)
+class Odd(Goal):
+    def find_failure(self, subject):
         {body}
 """
 IN_WORKER = """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -68,7 +69,7 @@ def test_every_command_of_the_page_runs(folder: Path) -> None:
 def run_line(words: str, folder: Path) -> Done:
     """A command of the page; tables have more than four hulls, which its check finds."""
     code = 1 if words.startswith("meshforge check ") else 0
-    return meshforge(*words.split()[1:], cwd=folder, code=code)
+    return meshforge(*shlex.split(words)[1:], cwd=folder, code=code)
 
 
 @pytest.mark.slow
@@ -124,5 +125,6 @@ def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypa
         ("actions", "Contract"),
         ("labelers", "flat"),
         ("checks", "few-hulls"),
+        ("goals", "low"),
     ]
     assert all((r["package"], r["version"], r["loads"]) == ("meshforge-example", "1.0", True) for r in rows)

@@ -12,6 +12,8 @@ import pytest
 
 from meshforge.batch import IN_PROCESS, Failed, apply, expand, make_jobs, read_stamp
 from meshforge.checks import CheckOptions, check, examine_mesh
+from meshforge.checks.goals.base import GoalSubject, try_goal
+from meshforge.checks.goals.registry import parse_goal
 from meshforge.common import PluginError, plugins
 from meshforge.formats import load, read
 from meshforge.language import All, Each, Program, Rule
@@ -24,7 +26,7 @@ from tests.unit.plugins import broken
 
 Install = Callable[..., str]
 _numbers = count()
-_TARGETS = {"formats": "Cubes", "labelers": "Namer", "checks": "Look"}
+_TARGETS = {"formats": "Cubes", "labelers": "Namer", "checks": "Look", "goals": "Odd"}
 FAULTS = {
     "convex": "is not convex",
     "closed": "is not closed",
@@ -124,6 +126,7 @@ def test_a_name_that_cannot_be_imported_is_said_before_the_work(run: Run, instal
         ("labelers", broken.HEAD + "class Namer(AssetLabeler): pass", "it has no method label"),
         ("checks", broken.HEAD + "class Look(Check): pass", "it has no method examine"),
         ("checks", "", "cannot be loaded: AttributeError"),
+        ("goals", broken.HEAD + "class Odd(Goal): pass", "it has no method find_failure"),
     ],
 )
 def test_the_list_says_why_a_plug_in_does_not_fit(run: Run, install: Install, kind: str, code: str, why: str) -> None:
@@ -289,6 +292,14 @@ def test_a_check_that_fails_is_an_error_among_the_findings(run: Run, install: In
     (finding,) = examine_mesh(load("table.obj"), CheckOptions.of(["odd"])).findings
     assert (finding.rule, finding.severity) == ("odd", "error")
     assert finding.message.startswith(f"the check odd of the package {package} ")
+
+
+@pytest.mark.parametrize("body", [*RAISES[:2], "return 'odd'"])
+def test_a_goal_that_fails_is_broken_and_blamed(run: Run, install: Install, body: str) -> None:
+    package = install("goals", "odd", broken.HEAD + broken.GOAL.format(body=body))
+    mesh = load("table.obj")
+    found = try_goal(parse_goal("odd"), GoalSubject.of(mesh, mesh, Program()))
+    assert found.outcome == "broken" and found.why.startswith(f"the goal odd of the package {package} ")
 
 
 # Besides

@@ -6,16 +6,17 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal, NoReturn, Self
+from typing import Any, Literal, NoReturn, Self
 
 import numpy as np
 
 from meshforge.checks.trials.scene import TOLERANCE, Failure, Place
-from meshforge.common import MeshForgeError, Plugin, ProgramError, blame, describe_error
+from meshforge.common import MeshForgeError, ProgramError, blame, describe_error
 from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
 from meshforge.label_model.describe import find_upright_rotation
 from meshforge.language import EXTREMITY, Extractor, Operation, Program, Replay, labels_of, select_mask
 from meshforge.language.arguments import MissingOperation
+from meshforge.language.extractors.base import rename_in_extractor
 from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
 
@@ -37,6 +38,12 @@ class Goal(Operation, ABC):
     @classmethod
     def word(cls) -> str:
         return cls.__name__.lower()
+
+    def rename(self, old: str, new: str) -> Self:
+        """Return the same with a label by another name."""
+        extractors = {name: value for name, value in self.values().items() if isinstance(value, Extractor)}
+        renamed: dict[str, Any] = {name: rename_in_extractor(one, old, new) for name, one in extractors.items()}
+        return replace(self, **renamed) if renamed else self  # type: ignore[type-var]  # it is a dataclass
 
     @abstractmethod
     def find_failure(self, subject: GoalSubject) -> Failure | None:
@@ -118,9 +125,7 @@ class GoalSubject:
 
     @cached_property
     def hulls(self) -> tuple[Hull, ...]:
-        """The hulls after the edit. Raises TrialError where none is left."""
-        if not self.end.hulls:
-            raise TrialError("no hull is left")
+        """The hulls after the edit."""
         return self._lift(self.end.hulls)
 
     @cached_property
@@ -194,18 +199,19 @@ class GoalResult:
 
 def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
     """Return what comes of a goal on an asset; what a plug-in does wrong, or a program of ours, is `broken`."""
-    plugin: Plugin | None = goal.plugin
     try:
         size = subject.start.diagonal
         if not subject.start.hulls:
             raise TrialError("it has no hulls")
         if not LEAST_SIZE <= size <= MOST_SIZE:
             raise TrialError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
-        with blame(plugin):
+        if not subject.end.hulls:
+            return GoalResult(str(goal), "failed", "no hull is left")
+        with blame(goal.plugin):
             failure = goal.find_failure(subject)
-        if failure is None:
-            return GoalResult(str(goal), "passed")
-        return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
+            if failure is None:
+                return GoalResult(str(goal), "passed")
+            return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
     except TrialError as error:
         return GoalResult(str(goal), "untried", error.problem)
     except ProgramError:

@@ -48,8 +48,7 @@ def find_room(hulls: Sequence[Hull], surfaces: Sequence[Surface]) -> Place | Non
     if not taken.any():
         taken = voxelize_hulls(grid, [hull.shape for hull in hulls])
     above = np.maximum.accumulate(taken, axis=2)
-    free: Mask = np.logical_and.reduce([flood_from_outside(taken), around, above])
-    return _largest_box(grid, free)
+    return _largest_box(grid, flood_from_outside(taken) & around & above)
 
 
 def find_way(hulls: Sequence[Hull], axis: int) -> Place | None:
@@ -62,7 +61,7 @@ def find_way(hulls: Sequence[Hull], axis: int) -> Place | None:
         return None
     grid = grid_around(whole.aabb)
     seen = voxelize_hulls(grid, [hull.shape for hull in hulls]).any(axis=axis, keepdims=True)
-    free = voxelize_hulls(grid, [whole]).any(axis=axis, keepdims=True) & ~seen
+    free: Mask = np.asarray(voxelize_hulls(grid, [whole]).any(axis=axis, keepdims=True) & ~seen)
     others = [k for k in range(3) if k != axis]
     flat = Grid(grid.origin, grid.cell, tuple(1 if k == axis else n for k, n in enumerate(grid.shape)))  # type: ignore[arg-type]
     box = _largest_box(flat, free, others)

@@ -151,7 +151,7 @@ class BaseArgument(ArgumentType):
     def check(self, kind: type[Any], name: str, value: Any) -> None:
         if not self.fits(value):
             remedy = "Combine selections with Union, Intersect and Diff instead of nesting them."
-            raise ProgramError(f"{kind.word()} takes {self.wants}, not {value!r}", remedy=remedy)
+            raise ProgramError(f"{kind.__name__} takes {self.wants}, not {value!r}", remedy=remedy)
 
 
 class ExtractorArgument(ArgumentType):
