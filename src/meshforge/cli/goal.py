@@ -88,7 +88,8 @@ def _choose_goals(project: Project, expression: str | None, add: str | None) -> 
         return {add: kept[add]}
     if expression in kept:
         return {expression: kept[expression]}
-    return {expression: parse_goal(expression, "goal", project.words)}
+    found = parse_goal(expression, "goal", project.words)
+    return {str(found): found}
 
 
 def _has_failed(name: str, found: list[AssetGoals], strict: bool) -> bool:
