@@ -1,4 +1,4 @@
-"""What must be true of an edited mesh, tried by the trials of `meshforge goal` where it is physical."""
+"""What must be true of an edited mesh, tried as `meshforge goal` tries it where it is physical."""
 
 from benchmark.criteria.case import Case
 from benchmark.criteria.verdict import CRITERIA, judge

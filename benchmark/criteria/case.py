@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmark.assets.asset import Asset
 from benchmark.assets.decomposition import bounds
-from meshforge.checks.trials.scene import TOLERANCE
+from meshforge.checks.physics.scene import TOLERANCE
 from meshforge.symbolic import SymbolicMesh
 
 

@@ -10,10 +10,10 @@ from manifold3d import Manifold
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.solid import near, solid
-from meshforge.checks.trials.graspable import Pull, try_grasp
-from meshforge.checks.trials.motion import try_stand, try_swing
-from meshforge.checks.trials.objects import ObjectShape, ProbeShape, objects_on, try_contain, try_pass, try_support
-from meshforge.checks.trials.scene import Failure, Place
+from meshforge.checks.physics.gripper import Pull, try_grasp
+from meshforge.checks.physics.motion import try_stand, try_swing
+from meshforge.checks.physics.objects import ObjectShape, ProbeShape, objects_on, try_contain, try_pass, try_support
+from meshforge.checks.physics.scene import Failure, Place
 from meshforge.symbolic import Hull
 
 NO_HULL = "no hull is left"

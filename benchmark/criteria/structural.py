@@ -11,7 +11,7 @@ from scipy.optimize import linear_sum_assignment
 
 from benchmark.criteria.case import Case
 from benchmark.criteria.solid import near, solid
-from meshforge.checks.trials.scene import describe_hull, mm
+from meshforge.checks.physics.scene import describe_hull, mm
 from meshforge.geometry import close_pairs
 from meshforge.symbolic import Hull
 from script.samples.part import Part

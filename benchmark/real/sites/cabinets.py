@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmark.assets.asset import Site
 from benchmark.assets.decomposition import bounds
-from meshforge.checks.trials.scene import TOLERANCE
+from meshforge.checks.physics.scene import TOLERANCE
 from meshforge.geometry import Floats
 from script.samples.part import Part
 from script.samples.solids import block, union

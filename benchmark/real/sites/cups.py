@@ -9,7 +9,7 @@ from manifold3d import Manifold
 
 from benchmark.assets.asset import Site
 from benchmark.assets.decomposition import bounds
-from meshforge.checks.trials.scene import TOLERANCE
+from meshforge.checks.physics.scene import TOLERANCE
 from meshforge.geometry import Floats
 from script.samples.part import Part
 from script.samples.solids import Point, block, union

@@ -89,7 +89,7 @@ def _try_task(job: AssetJob, task: GoalTask) -> AssetGoals:
 
 def _try_asset(task: GoalTask, job: AssetJob) -> AssetGoals:
     try:
-        return _AssetTrial(task, job).run()
+        return _GoalRun(task, job).run()
     except Exception as error:  # an asset that fails never stops the others
         return AssetGoals(job.id, error=describe_error(error, str(job.path)))
 
@@ -107,7 +107,7 @@ class _ResultFile(BaseModel):
     results: dict[str, _ResultRecord] = {}
 
 
-class _AssetTrial:
+class _GoalRun:
     """One asset: what is known of its goals, and what has to be tried."""
 
     def __init__(self, task: GoalTask, job: AssetJob) -> None:

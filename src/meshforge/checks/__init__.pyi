@@ -19,8 +19,8 @@ from meshforge.checks.examination import examine_mesh as examine_mesh
 from meshforge.checks.fit import MeshFit as MeshFit
 from meshforge.checks.goals.base import Goal as Goal
 from meshforge.checks.goals.base import GoalSubject as GoalSubject
-from meshforge.checks.goals.base import TrialError as TrialError
-from meshforge.checks.trials.scene import Failure as Failure
+from meshforge.checks.goals.base import NotApplicableError as NotApplicableError
+from meshforge.checks.physics.scene import Failure as Failure
 from meshforge.checks.physics.simulation import BEFORE as BEFORE
 from meshforge.checks.physics.simulation import Physics as Physics
 from meshforge.engines import Finding as Finding

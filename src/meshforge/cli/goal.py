@@ -40,7 +40,7 @@ class GoalArguments:
 
 @options.takes(GoalArguments)
 def goal(given: GoalArguments) -> None:
-    """Try what assets must do, such as 'supports(Is(top))', on all of a project, before and after its program.
+    """Try what assets must do, such as to stand or to be gripped, before and after the program.
 
     Goals are stands, supports(E), contains(E), graspable(E), passes(E), swings(E), clear(E) and fits(E) on an extractor
     E. Lengths are metres, or have a unit: width = 80 mm. Exit code 1 when a goal fails on an asset, or could be tried

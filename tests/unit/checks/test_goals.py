@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from meshforge.checks.goals.base import Goal, GoalSubject, try_goal
 from meshforge.checks.goals.registry import GOALS, parse_goal
-from meshforge.checks.trials.scene import Failure
+from meshforge.checks.physics.scene import Failure
 from meshforge.common import ProgramError
 from meshforge.geometry import Aabb, Box, Pose, rotation_about
 from meshforge.language import OptionArgument, Program, Share, parse_extractor

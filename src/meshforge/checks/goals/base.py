@@ -10,7 +10,7 @@ from typing import Any, Literal, NoReturn, Self
 
 import numpy as np
 
-from meshforge.checks.trials.scene import TOLERANCE, Failure, Place
+from meshforge.checks.physics.scene import TOLERANCE, Failure, Place
 from meshforge.common import MeshForgeError, ProgramError, blame, describe_error
 from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
 from meshforge.label_model.describe import find_upright_rotation
@@ -26,7 +26,7 @@ LEAST_SIZE, MOST_SIZE = 0.005, 50.0
 GoalOutcome = Literal["passed", "failed", "untried", "broken"]
 
 
-class TrialError(MeshForgeError):
+class NotApplicableError(MeshForgeError):
     """A goal cannot be tried on an asset, so nothing is known of it."""
 
 
@@ -47,7 +47,7 @@ class Goal(Operation, ABC):
 
     @abstractmethod
     def find_failure(self, subject: GoalSubject) -> Failure | None:
-        """Return why an asset does not do it, None where it does. Raises TrialError where that cannot be tried."""
+        """Return why an asset does not do it, None where it does. Raises NotApplicableError."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +151,7 @@ class GoalSubject:
         return tuple(replace(one, vertices=one.vertices @ self.upright.T) for one in shown if len(one.faces))
 
     def select(self, extractor: Extractor) -> tuple[Hull, ...]:
-        """Return what an extractor selects before the edit. Raises TrialError where that is nothing."""
+        """Return what an extractor selects before the edit. Raises NotApplicableError where that is nothing."""
         found = self._select(extractor)
         return self._lift([self.start.hulls[k] for k in sorted(bits_of(found))])
 
@@ -162,7 +162,7 @@ class GoalSubject:
         return [Part.of(self._lift([self.start.hulls[k] for k in sorted(bits_of(part))])) for part in parts]
 
     def select_after(self, extractor: Extractor) -> tuple[Hull, ...]:
-        """Return what it selects after the edit. Raises TrialError where it selects nothing before it, either."""
+        """Return what it selects after the edit. Raises NotApplicableError where it selected nothing before."""
         self._select(extractor)
         found = bits_of(select_mask(extractor, self.end, self.extremity))
         return tuple(hull for k, hull in enumerate(self.hulls) if k in found)
@@ -178,10 +178,10 @@ class GoalSubject:
 
     def _select(self, extractor: Extractor) -> int:
         if labels_of(extractor) and not any(hull.annotation for hull in self.start.hulls):
-            raise TrialError(f"it has no labels, and {extractor} asks for some")
+            raise NotApplicableError(f"it has no labels, and {extractor} asks for some")
         found = select_mask(extractor, self.start, self.extremity)
         if not found:
-            raise TrialError(f"{extractor} selects nothing here")
+            raise NotApplicableError(f"{extractor} selects nothing here")
         return found
 
 
@@ -202,9 +202,9 @@ def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
     try:
         size = subject.start.diagonal
         if not subject.start.hulls:
-            raise TrialError("it has no hulls")
+            raise NotApplicableError("it has no hulls")
         if not LEAST_SIZE <= size <= MOST_SIZE:
-            raise TrialError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
+            raise NotApplicableError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
         if not subject.end.hulls:
             return GoalResult(str(goal), "failed", "no hull is left")
         with blame(goal.plugin):
@@ -212,7 +212,7 @@ def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
             if failure is None:
                 return GoalResult(str(goal), "passed")
             return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
-    except TrialError as error:
+    except NotApplicableError as error:
         return GoalResult(str(goal), "untried", error.problem)
     except ProgramError:
         raise

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 
 from meshforge.checks.fit import measure_fit
-from meshforge.checks.goals.base import Goal, GoalSubject, TrialError
-from meshforge.checks.trials.scene import Failure, describe_hull, mm
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
+from meshforge.checks.physics.scene import Failure, describe_hull, mm
 from meshforge.geometry import close_pairs
 from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, Share
 from meshforge.symbolic import Hull
@@ -83,14 +83,14 @@ class Fits(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         if not subject.surfaces:
-            raise TrialError("it shows nothing that hulls could fit")
+            raise NotApplicableError("it shows nothing that hulls could fit")
         names = {hull.name for hull in subject.select_after(self.part)}
         if not names:
             return Failure(f"nothing of {self.part} is left")
         limit = self.tolerance.value * subject.start.diagonal if isinstance(self.tolerance, Share) else self.tolerance
         rows = [row for row in measure_fit(subject.shown).hulls if row.hull in names]
         if not rows:
-            raise TrialError(f"the bodies of {self.part} show nothing")
+            raise NotApplicableError(f"the bodies of {self.part} show nothing")
         worst = max(rows, key=lambda row: max(row.out, row.bare))
         if max(worst.out, worst.bare) <= limit:
             return None

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.checks.goals.base import Goal, GoalSubject, Part
-from meshforge.checks.trials.scene import Failure, Place, mm
+from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Aabb, Floats
 from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, WordArgument
@@ -40,7 +40,7 @@ class Graspable(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials.graspable import try_grasp  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics.gripper import try_grasp  # lazy: MuJoCo takes 0.3 s
 
         handles = {hull.name for hull in subject.select_after(self.handle)}
         for number, part in enumerate(subject.select_parts(self.handle), 1):
@@ -92,17 +92,17 @@ def find_grips(
     rows = list[tuple[tuple[float, ...], Place]]()
     for order, spot in enumerate(_SPOTS):
         at = float(whole.min[long] + spot * whole.size[long])
-        bar = slice_bounds(part.hulls, long, at - reach, at + reach)
+        section = slice_bounds(part.hulls, long, at - reach, at + reach)
         for across in (k for k in range(3) if k != long):
-            thick = float(bar.size[across]) if bar else np.inf
-            if bar is None or (width is not None and width <= thick):
+            thick = float(section.size[across]) if section else np.inf
+            if section is None or (width is not None and width <= thick):
                 continue
             opening = _OPEN * thick if width is None else min(width, _OPEN * thick)
             for axis in (k for k in range(3) if k != across):
                 for side in (1.0, -1.0):
                     inward = side * np.eye(3)[axis]
-                    half = reach if axis != long else float(bar.size[3 - axis - across]) / 2
-                    grip = _fit_fingers(bar, rest, inward, across, opening / 2, half, margin)
+                    half = reach if axis != long else float(section.size[3 - axis - across]) / 2
+                    grip = _fit_fingers(section, rest, inward, across, opening / 2, half, margin)
                     if grip:
                         is_inside = bool(inward @ outward > 0) or axis == long
                         rows.append(((is_inside, order, thick, float(inward @ outward)), grip))
@@ -110,22 +110,22 @@ def find_grips(
 
 
 def _fit_fingers(
-    bar: Aabb, rest: Sequence[Hull], inward: Floats, across: int, opening: float, half: float, margin: float
+    section: Aabb, rest: Sequence[Hull], inward: Floats, across: int, opening: float, half: float, margin: float
 ) -> Place | None:
     """Where fingers take a bar that come along an axis, as deep as nothing is in their way; None where they do not get
     over it."""
     axis = int(np.abs(inward).argmax())
     third = 3 - axis - across
     reach = np.zeros(3)
-    reach[axis], reach[across], reach[third] = bar.size[axis] / 2, _ROOM * opening, half
-    window = Aabb(bar.center - reach, bar.center + reach)
+    reach[axis], reach[across], reach[third] = section.size[axis] / 2, _ROOM * opening, half
+    window = Aabb(section.center - reach, section.center + reach)
     side = float(inward[axis])
-    front, back = (bar.min[axis], bar.max[axis]) if side > 0 else (bar.max[axis], bar.min[axis])
+    front, back = (section.min[axis], section.max[axis]) if side > 0 else (section.max[axis], section.min[axis])
     ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (_clip(one, window) for one in rest))]
     depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
     if depth < _SHALLOW * abs(back - front):
         return None
-    at = bar.center.copy()
+    at = section.center.copy()
     at[axis] = front + side * depth / 2
     closing = np.eye(3)[across]
     axes = np.stack([inward, closing, np.cross(inward, closing)], axis=1)

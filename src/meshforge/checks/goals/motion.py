@@ -5,9 +5,9 @@ from itertools import product
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, TrialError
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree
-from meshforge.checks.trials.scene import Failure, Place
+from meshforge.checks.physics.scene import Failure, Place
 from meshforge.common import require_mujoco
 from meshforge.geometry import Floats, Pose
 from meshforge.language import (
@@ -29,7 +29,7 @@ class Stands(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials.motion import try_stand  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics.motion import try_stand  # lazy: MuJoCo takes 0.3 s
 
         return try_stand(subject.hulls, subject.end.diagonal)
 
@@ -66,7 +66,7 @@ class Swings(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials.motion import try_swing  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics.motion import try_swing  # lazy: MuJoCo takes 0.3 s
 
         moved = subject.select_after(self.leaf)
         if not moved:
@@ -80,7 +80,7 @@ class Swings(Goal):
             return try_swing(moved, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
         if not joints:
-            raise TrialError(f"no joint moves {self.leaf}; give about, axis and angle")
+            raise NotApplicableError(f"no joint moves {self.leaf}; give about, axis and angle")
         for joint, bodies in joints:
             moving = [hull for hull in subject.hulls if hull.body in bodies]
             rest = [hull for hull in subject.hulls if hull.body not in bodies]
@@ -123,11 +123,11 @@ def _list_below(tree: JointTree, body: str) -> list[str]:
 
 
 def _place_of(joint: Joint, upright: Floats) -> Place:
-    """Where a joint is, and its range. Raises TrialError for one that has none."""
+    """Where a joint is, and its range. Raises NotApplicableError for one that has none."""
     if joint.kind not in _MOTIONS or joint.coupling is not None:
-        raise TrialError(f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}")
+        raise NotApplicableError(f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}")
     if joint.limits is None and joint.kind == "prismatic":
-        raise TrialError(f"the joint {joint.name or joint.child!r} slides without limits")
+        raise NotApplicableError(f"the joint {joint.name or joint.child!r} slides without limits")
     low, high = joint.limits or (0.0, 2 * np.pi)
     scale = 1.0 if joint.kind == "prismatic" else float(np.degrees(1.0))
     pose = Pose(upright, np.zeros(3))

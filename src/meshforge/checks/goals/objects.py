@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from meshforge.checks.goals import rooms
-from meshforge.checks.goals.base import Goal, GoalSubject, TrialError
-from meshforge.checks.trials.scene import Failure, Place, mm
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
+from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Floats
 from meshforge.language import (
@@ -40,7 +40,7 @@ class Supports(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
         placed = []
         for number, part in enumerate(subject.select_parts(self.surface), 1):
@@ -58,7 +58,7 @@ class Supports(Goal):
                 if top >= low
             ]
         if not placed:
-            raise TrialError(f"{self.surface} has no surface to put things on")
+            raise NotApplicableError(f"{self.surface} has no surface to put things on")
         return objects.try_support(subject.hulls, placed, subject.touching)
 
 
@@ -72,7 +72,7 @@ class Contains(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
         places = dict[str, Place]()
         for number, part in enumerate(subject.select_parts(self.holder), 1):
@@ -85,7 +85,7 @@ class Contains(Goal):
             at = room.at + np.array([0.0, 0.0, half[2] + subject.touching - room.size[2]])
             places[f"room {number}"] = part.lift(replace(room, at=at, size=half))
         if not places:
-            raise TrialError(f"{self.holder} has no room that a thing could lie in")
+            raise NotApplicableError(f"{self.holder} has no room that a thing could lie in")
         return objects.try_contain(subject.hulls, places, self.shape, subject.touching)  # type: ignore[arg-type]
 
 
@@ -102,7 +102,7 @@ class Passes(Goal):
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
-        from meshforge.checks.trials import objects  # lazy: MuJoCo takes 0.3 s
+        from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
         ways = dict[str, Place]()
         for number, part in enumerate(subject.select_parts(self.opening), 1):
@@ -116,7 +116,7 @@ class Passes(Goal):
             size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
             ways[f"opening {number}"] = part.lift(replace(way, size=size))
         if not ways:
-            raise TrialError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
+            raise NotApplicableError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
         return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]
 
 

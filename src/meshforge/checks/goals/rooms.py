@@ -14,8 +14,8 @@ from meshforge.checks.grid import (
     voxelize_hulls,
     voxelize_surface,
 )
+from meshforge.checks.physics.scene import Place
 from meshforge.checks.surface_samples import join_corners
-from meshforge.checks.trials.scene import Place
 from meshforge.common import GeometryError
 from meshforge.geometry import Aabb, Floats, Polytope, convex_hull
 from meshforge.symbolic import Hull, Surface

@@ -1,1 +1,2 @@
-"""How an asset behaves in a physics engine: MuJoCo rests it on a plane."""
+"""How an asset behaves in MuJoCo: at rest on a plane; and at given places: what stands, carries, holds, can be gripped,
+passed and moved."""

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from meshforge.checks.trials.scene import (
+from meshforge.checks.physics.scene import (
     BREAKS_DOWN,
     Failure,
     Place,

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import mujoco
 import numpy as np
 
-from meshforge.checks.trials.scene import (
+from meshforge.checks.physics.scene import (
     BREAKS_DOWN,
     Failure,
     Place,
@@ -115,10 +115,10 @@ def _pull(model: Any, data: Any, grip: Place, way: Floats) -> str | None:
     """Pull smoothly; why the asset stays behind."""
     base = int(model.joint("gripper").dofadr[0])
     body = data.body("asset")
-    held = body.xmat.reshape(3, 3).T @ (grip.at - body.xpos)
+    grip_point = body.xmat.reshape(3, 3).T @ (grip.at - body.xpos)
     count = round(_SECONDS / model.opt.timestep)
     for k in range(count):
         data.qvel[base] = _PULL / _SECONDS * (1 - np.cos(2 * np.pi * (k + 0.5) / count))
         mujoco.mj_step(model, data)
-    came = float(way @ (body.xpos + body.xmat.reshape(3, 3) @ held - grip.at))
+    came = float(way @ (body.xpos + body.xmat.reshape(3, 3) @ grip_point - grip.at))
     return f"pulled by {mm(_PULL)}, the asset comes along by {mm(came)}" if came < _ALONG * _PULL else None

@@ -16,8 +16,8 @@ TOLERANCE = 0.002
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Place:
-    """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m], or as a trial says; axes: the columns of a
-    rotation (3, 3)."""
+    """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m], as a use says; axes: the columns of
+    a rotation (3, 3)."""
 
     at: Floats
     size: Floats

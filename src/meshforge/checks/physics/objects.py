@@ -8,7 +8,7 @@ from typing import Any, Literal
 import mujoco
 import numpy as np
 
-from meshforge.checks.trials.scene import (
+from meshforge.checks.physics.scene import (
     BREAKS_DOWN,
     Failure,
     Place,
@@ -38,7 +38,7 @@ _UNEVEN = 0.2  # of the radius: objects are let down from so high, and may lie s
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class TrialObject:
+class FreeObject:
     """A shape about the origin that is put at a spot (3,) [m] with some axes (3, 3); radius: how far it may go [m]."""
 
     name: str
@@ -53,7 +53,7 @@ class TrialObject:
         return self.shape.move(Pose(self.axes, self.spot))
 
 
-def objects_on(name: str, surface: Place) -> list[TrialObject]:
+def objects_on(name: str, surface: Place) -> list[FreeObject]:
     """Return five boxes and five balls on a surface; size: two half sides, and the radius of the balls [m]."""
     long, wide, radius = surface.size
     rows = []
@@ -61,13 +61,13 @@ def objects_on(name: str, surface: Place) -> list[TrialObject]:
         spot = surface.at + surface.axes @ np.array([x * long, y * wide, 0.0])
         box, ball = Box(Pose.identity(), np.full(3, 1.5 * radius)), Sphere(Pose.identity(), radius)
         rows += [
-            TrialObject(f"{name}, {word} {k}", shape, spot, surface.axes, radius)
+            FreeObject(f"{name}, {word} {k}", shape, spot, surface.axes, radius)
             for word, shape in (("box", box), ("ball", ball))
         ]
     return rows
 
 
-def try_support(hulls: Sequence[Hull], objects: Sequence[TrialObject], touching: float) -> Failure | None:
+def try_support(hulls: Sequence[Hull], objects: Sequence[FreeObject], touching: float) -> Failure | None:
     """Return which object does not lie on a surface where it should, None where all do.
 
     objects: whose spots are on surfaces; touching: how deep things may be in each other [m].
@@ -90,7 +90,7 @@ def try_contain(
     places: by name; size: half extents of the object [m].
     """
     objects = [
-        TrialObject(name, _shape_in(where, shape), where.at, where.axes, min(where.size))
+        FreeObject(name, _shape_in(where, shape), where.at, where.axes, min(where.size))
         for name, where in places.items()
     ]
     model = _build_scene(hulls, objects, min(one.radius for one in objects))
@@ -110,7 +110,7 @@ def try_pass(hulls: Sequence[Hull], ways: Mapping[str, Place], shape: ProbeShape
     the probe sweeps is one convex body, tried at once: a box, or a capsule.
     """
     objects = [
-        TrialObject(name, _sweep(way, shape), way.at + way.axes[:, 0] * way.size[0] / 2, way.axes, 0.0)
+        FreeObject(name, _sweep(way, shape), way.at + way.axes[:, 0] * way.size[0] / 2, way.axes, 0.0)
         for name, way in ways.items()
     ]
     model = _build_scene(hulls, objects)
@@ -122,7 +122,7 @@ def try_pass(hulls: Sequence[Hull], ways: Mapping[str, Place], shape: ProbeShape
     return _fail(text, objects, hulls, touch) if touch else None
 
 
-def _build_scene(hulls: Sequence[Hull], objects: Sequence[TrialObject], size: float | None = None) -> Any:
+def _build_scene(hulls: Sequence[Hull], objects: Sequence[FreeObject], size: float | None = None) -> Any:
     spec = blank() if size is None else blank(step_for(size))
     add_hulls(spec, spec.worldbody, hulls)
     for one in objects:
@@ -135,7 +135,7 @@ def _find_touch(model: Any, data: Any, least: float) -> Touch | None:
     return deepest(model, data, least)
 
 
-def _fail(text: str, objects: Sequence[TrialObject], hulls: Sequence[Hull], touch: Touch) -> Failure:
+def _fail(text: str, objects: Sequence[FreeObject], hulls: Sequence[Hull], touch: Touch) -> Failure:
     shown = tuple(one.there for one in objects if one.name == touch.mover)
     return Failure(text, touch.names(hulls), shown)
 
@@ -167,7 +167,7 @@ def _watch(model: Any, data: Any, seconds: float, find_loss: Callable[[], Failur
     return None
 
 
-def _find_gone(data: Any, objects: Sequence[TrialObject]) -> Failure | None:
+def _find_gone(data: Any, objects: Sequence[FreeObject]) -> Failure | None:
     """An object that left its spot on a surface."""
     for one in objects:
         way = float(np.linalg.norm((data.body(one.name).xpos - one.spot)[:2]))
@@ -177,7 +177,7 @@ def _find_gone(data: Any, objects: Sequence[TrialObject]) -> Failure | None:
     return None
 
 
-def _find_off(data: Any, objects: Sequence[TrialObject], touching: float) -> Failure | None:
+def _find_off(data: Any, objects: Sequence[FreeObject], touching: float) -> Failure | None:
     """An object that lies at another height than the surface."""
     for one in objects:
         high = float(data.body(one.name).xpos[2] - one.spot[2] - one.shape.aabb.max[2])
@@ -187,7 +187,7 @@ def _find_off(data: Any, objects: Sequence[TrialObject], touching: float) -> Fai
     return None
 
 
-def _find_moved(data: Any, objects: Sequence[TrialObject]) -> Failure | None:
+def _find_moved(data: Any, objects: Sequence[FreeObject]) -> Failure | None:
     """An object that moved in its cavity by more than its half."""
     for one in objects:
         way = float(np.linalg.norm(data.body(one.name).xpos - one.spot))
