@@ -1,4 +1,5 @@
-"""What is said of how an asset was read and of what engines refuse, in the outcomes of edits and as notes."""
+"""What `check --engine` would refuse is never written without a note: each action, each format with engines. What is
+said of how an asset was read, in the outcome of its edit: as far as it is still true of what was written."""
 
 from __future__ import annotations
 

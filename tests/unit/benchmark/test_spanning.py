@@ -1,4 +1,7 @@
-"""Hulls that span parts: figures, surfaces, alarms, and programs learned where meshes are rebuilt; real assets, too."""
+"""Figures about hulls that span parts: counts by hand, and the surface of an asset. Alarms on the bundled families,
+through a project: none with their labels, few without, and merged legs are found. Programs learned on meshes that are
+rebuilt where hulls span: which are, who labels first, what is compared. Real assets decomposed as a whole: their hulls,
+the surface that these stand for, and what is left out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The speed and learning benchmarks run, and what they compare and draw is right; no time is asserted."""
+"""The speed benchmark runs, and the answers that it compares agree; no time is asserted. The learning benchmark runs,
+its draws are the same every time, and what it says is so; no time is asserted."""
 
 from __future__ import annotations
 

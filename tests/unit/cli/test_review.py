@@ -1,4 +1,5 @@
-"""`meshforge review`, `status --signed-off` and `apply --min-confidence`, and held assets, listed by reason."""
+"""`meshforge review`, `status --signed-off` and `apply --min-confidence`. Held assets are listed by reason: one line
+for all that are held for the same."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""`meshforge synthesize`: what is printed where and as text, how it is stopped, what `review` does of its answers."""
+"""`meshforge synthesize`: what is printed where, how it is stopped, and what `review` does of its answers. What
+learning results in as text: the assets to look at are one list."""
 
 from __future__ import annotations
 

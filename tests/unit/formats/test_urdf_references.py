@@ -1,4 +1,5 @@
-"""URDF: its XML, read as engines read it, with places that can be edited; and references to mesh files."""
+"""References to mesh files: where they lead, what is said when they lead nowhere, what must go along. The XML of a
+URDF: read as engines read it, hardened, with places that can be edited."""
 
 from __future__ import annotations
 

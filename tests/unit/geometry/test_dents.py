@@ -1,4 +1,5 @@
-"""Which surfaces are judged convex: with dents, with noise, and with so many faces that it is judged edge by edge."""
+"""Surfaces that nearly fill their hulls: with a hole or a dent they are none, with rounding and noise they are.
+Surfaces with so many faces that convexity is judged edge by edge, and points that rise above them, by groups."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Labels that would be taken: offered without reading assets, and shown as they are taken then."""
+"""What would be taken is shown as it is taken then, and nothing is written by that. Labels that are there to be taken,
+told without reading assets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The Python interface: quick to import, complete, typed, and it runs as its page says."""
+"""The Python interface: quick to import, complete, and it runs as its page says. The Python interface as a type checker
+sees it: names that are not there are errors. The page on Python: its examples run, in the order of the page and in one
+folder, and it names what there is."""
 
 from __future__ import annotations
 

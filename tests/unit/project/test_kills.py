@@ -1,4 +1,5 @@
-"""A change or reply that is killed has happened whole, or not at all, and the same command takes it again."""
+"""A change to a project that is killed has happened whole, or not at all. A reply whose command was killed is taken by
+the same command again, which then exits as if it had not been."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What every kind of reply does to probabilities, and of two people who reply otherwise the last word counts."""
+"""Two people reply otherwise to one question, one after the other: the last word counts, and both are shown. What every
+kind of reply does to the probabilities of a family, by `Project.reply` and by `review --answers`."""
 
 from __future__ import annotations
 

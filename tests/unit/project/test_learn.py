@@ -1,4 +1,5 @@
-"""A project learns from its demonstrations and from what a person said since, which is kept and can be taken back."""
+"""A project learns from its demonstrations and from what a person said since. What a person says while a program is
+learned is kept, read again, and can be taken back."""
 
 from __future__ import annotations
 

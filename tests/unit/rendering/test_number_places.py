@@ -1,4 +1,4 @@
-"""Numbers on pictures: where they stand, that none covers another, and the middle of what is seen of a thing."""
+"""Numbers on pictures: where they stand, and that none covers another. The middle of what is seen of a thing."""
 
 from __future__ import annotations
 

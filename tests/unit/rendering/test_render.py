@@ -1,4 +1,4 @@
-"""Pictures of meshes, drawn and as files."""
+"""Pictures of meshes. Pictures as files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rays see, against geometry; and pictures in which certain hulls can be seen."""
+"""What rays see, against geometry. Pictures in which certain hulls can be seen."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Assets in the midst of edits, against what running programs gives, and pictures that the page colours by itself."""
+"""Assets in the midst of edits, against what running programs gives. Pictures that the page colours by itself."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person is asked, and which asset is best demonstrated first or next."""
+"""What a person is asked, and which asset is best demonstrated next. Which mesh is best demonstrated first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""How believable readings are, by what the batch says about each, and which one a program takes."""
+"""How believable readings are, and which one a program takes. What the batch says about a reading: idle, strange; and
+operands and limits that nothing was shown of."""
 
 from __future__ import annotations
 

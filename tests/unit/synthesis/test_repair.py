@@ -1,4 +1,5 @@
-"""Which labels are proposed to be corrected and which are left alone, and how believable labels are."""
+"""Which labels are proposed to be corrected, and which are left alone. How believable labels are, by their source,
+their confidence and the hulls that are like theirs."""
 
 from __future__ import annotations
 
