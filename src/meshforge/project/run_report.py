@@ -81,8 +81,8 @@ def _format_assets(need_review: Sequence[tuple[str, ResultStatus]], most: int, r
             reasons.setdefault(one.reasons[0].text if one.reasons else "", []).append((name, one.probability))
     for reason, some in list(reasons.items())[:most]:
         shares = [share for _, share in some if share is not None]
-        told = f" ({_format_range(shares)})" if shares else ""
-        yield f"  {join_names([name for name, _ in some])}{told}{': ' if reason else ''}{reason}"
+        interval = f" ({_format_range(shares)})" if shares else ""
+        yield f"  {join_names([name for name, _ in some])}{interval}{': ' if reason else ''}{reason}"
     more = sum(map(len, list(reasons.values())[most:]))
     if more:
         yield f"  and {more} more{rest}"

@@ -5,21 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.project import Project
 from tests.unit.cli.in_process import Run
-from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+from tests.unit.project.stools import create_stools
 
 
 @pytest.fixture(autouse=True)
 def _stools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    for name, width in (("a", 0.2), ("b", 0.22), ("c", 0.18)):
-        parts = boxes(width, 0.4)
-        write_stool(tmp_path / "assets", name, parts, parts if name != "c" else coarse(parts))
-    project = Project.create(tmp_path / "p", [tmp_path / "assets/*.urdf"], vocabulary=("seat", "leg"))
-    for name in ("a.urdf", "b.urdf"):
-        names = [hull.name for hull in project.mesh(name).hulls]
-        project.set_labels(name, dict(zip(names, PARTS, strict=True)))
+    create_stools(tmp_path, {"a": (0.2, 0.4), "b": (0.22, 0.4), "c": (0.18, 0.4)}, spanning="c")
 
 
 def test_dry_run_then_rebuild_then_undo(run: Run) -> None:

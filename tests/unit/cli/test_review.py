@@ -1,15 +1,17 @@
-"""`meshforge review`, `status --signed-off` and `apply --min-confidence`."""
+"""`meshforge review`, `status --signed-off` and `apply --min-confidence`. Held assets are listed by reason: one line
+for all that are held for the same."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from meshforge.common import format_share
-from meshforge.project import Project
-from meshforge.signoff import THRESHOLD
+from meshforge.project import Project, ProjectReview, format_review
+from meshforge.signoff import THRESHOLD, Assessment, Reason, ResultStatus
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
@@ -167,3 +169,23 @@ def test_a_result_that_stands_out_is_held_at_any_bar(racks: Run) -> None:
     assert racks("review", "racks", "--min-confidence", "0.5").code == 1
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
     assert BLOCK not in Project.open("racks").sign_offs()
+
+
+def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
+    assets = {name: ResultStatus(p, (Reason("candidate", why),) if why else ()) for name, (p, why) in reasons.items()}
+
+    class Found:
+        assessment = Assessment(assets)
+
+    return format_review(cast(ProjectReview, Found()), held).splitlines()[1:-1]
+
+
+def test_assets_of_one_reason_share_a_line_with_the_range_of_their_probabilities() -> None:
+    reasons = {f"t{k}": (0.9 + 0.004 * k, "outlier") for k in range(9)} | {"odd": (0.5, "a solid block")}
+    assert text_of(reasons) == ["  odd (50%): a solid block", "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): outlier"]
+
+
+def test_the_order_is_that_of_the_least_probable_of_each_reason_and_what_is_not_listed_is_counted() -> None:
+    reasons = {"a": (0.3, "x"), "b": (0.2, "y"), "c": (0.6, "x"), "d": (0.7, "z"), "e": (0.8, "z"), "f": (0.9, "")}
+    assert text_of(reasons, held=2) == ["  b (20%): y", "  a, c (30% to 60%): x", "  and 3 more (all with --json)"]
+    assert text_of(reasons)[-1] == "  f (90%)"

@@ -131,10 +131,13 @@ def test_an_entry_of_another_form_is_named_with_what_is_wrong(tmp_path: Path, ro
     assert (raised.value.where, raised.value.problem) == (str(path), problem)
 
 
-@pytest.mark.parametrize(("text", "problem"), [("{", "this is no JSON"), ("{}", "this is no list"), ("3", "no list")])
-def test_a_file_of_another_form_is_refused(tmp_path: Path, text: str, problem: str) -> None:
+@pytest.mark.parametrize(
+    ("data", "problem"),
+    [(b"{", "this is no JSON"), (b"{}", "this is no list"), (b"3", "no list"), (b"\xff", "not UTF-8 text")],
+)
+def test_a_file_of_another_form_is_refused(tmp_path: Path, data: bytes, problem: str) -> None:
     path = tmp_path / "said.json"
-    path.write_text(text)
+    path.write_bytes(data)
     with pytest.raises(UsageError, match=problem):
         read_replies(path)
 
@@ -173,9 +176,3 @@ def test_a_demonstration_is_asked_for_with_its_command() -> None:
         "Show it: meshforge demonstrate tables a.obj 'HULLS => ACTION' ..."
     )
     assert parse_reply("", DEMONSTRATE) == ReviewReply("demonstrate-1", later=True)
-
-
-def test_replies_that_are_not_utf_8_say_so(tmp_path: Path) -> None:
-    (tmp_path / "a.json").write_bytes(b"\xff")
-    with pytest.raises(UsageError, match="not UTF-8 text"):
-        read_replies(tmp_path / "a.json")

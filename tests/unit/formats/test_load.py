@@ -78,16 +78,15 @@ def test_a_file_whose_name_looks_like_a_pattern_is_read(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "message"),
-    [("gone.obj", "there is no such file"), ("a.txt", "is no format that MeshForge knows"), ("a", "Known suffixes")],
+    [
+        ("gone.obj", "there is no such file"),
+        ("a.txt", "is no format that MeshForge knows"),
+        ("a", "Known suffixes"),
+        ("a.ob", r"did you mean \.obj\?"),
+    ],
 )
 def test_what_cannot_be_read_is_named(tmp_path: Path, name: str, message: str) -> None:
-    (tmp_path / "a.txt").write_text("")
-    (tmp_path / "a").write_text("")
+    for there in ("a.txt", "a", "a.ob"):
+        (tmp_path / there).write_text("")
     with pytest.raises(AssetError, match=message):
         read(tmp_path / name)
-
-
-def test_a_suffix_near_a_known_one_is_told(tmp_path: Path) -> None:
-    (tmp_path / "a.ob").write_text("")
-    with pytest.raises(AssetError, match=r"did you mean \.obj\?"):
-        read(tmp_path / "a.ob")

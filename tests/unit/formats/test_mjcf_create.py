@@ -16,6 +16,7 @@ from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
 from meshforge.symbolic import Asset, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.conversion_samples import TURNED, block, foreign, wedge
+from tests.mesh_files import ply, stl_ascii
 from tests.soups import angle
 from tests.urdf_sample import boxes_obj
 
@@ -165,32 +166,7 @@ def shown(folder: Path, name: str, text: str | bytes, **more: Any) -> Asset:
 
 ONE = boxes_obj(((0, 0, 0), (1, 2, 3)))
 TWO = "o left\n" + ONE + "o right\n" + ONE.replace("v 0.0", "v 5.0")
-TRIANGLE_STL = """\
-solid a
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex 1 0 0
-vertex 0 1 0
-endloop
-endfacet
-endsolid
-"""
-TRIANGLE_PLY = """\
-ply
-format ascii 1.0
-element vertex 3
-property float x
-property float y
-property float z
-element face 1
-property list uchar int vertex_indices
-end_header
-0 0 0
-1 0 0
-0 1 0
-3 0 1 2
-"""
+TRIANGLE = np.eye(3), np.array([[0, 1, 2]])
 
 
 def test_a_visual_is_copied_as_it_is_and_does_not_collide_nor_weigh(tmp_path: Path) -> None:
@@ -214,11 +190,13 @@ def test_a_visual_is_copied_as_it_is_and_does_not_collide_nor_weigh(tmp_path: Pa
         ("two.obj", TWO),
         ("mixed.obj", "vt 0 0\nvn 0 0 1\n" + ONE.replace("f 1 ", "f 1/1/1 ", 1)),
         ("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
-        ("text.stl", TRIANGLE_STL),
-        ("one.ply", TRIANGLE_PLY),
+        ("text.stl", stl_ascii(TRIANGLE)),
+        ("one.ply", ply(TRIANGLE)),
     ],
 )
-def test_a_visual_that_mujoco_would_show_in_part_or_refuse_becomes_an_obj(name: str, text: str, tmp_path: Path) -> None:
+def test_a_visual_that_mujoco_would_show_in_part_or_refuse_becomes_an_obj(
+    name: str, text: str | bytes, tmp_path: Path
+) -> None:
     asset = shown(tmp_path, name, text)
     _, model, saved = made(asset, tmp_path)
     assert not [path for path in saved.files if path.name == name]

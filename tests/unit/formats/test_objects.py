@@ -14,6 +14,7 @@ import pytest
 import trimesh
 
 import meshforge as mf
+from tests.mesh_files import obj
 from tests.unit.rendering.scenes import table
 
 MODEL = """<mujoco model="lamp">
@@ -26,15 +27,7 @@ MODEL = """<mujoco model="lamp">
   </worldbody>
 </mujoco>
 """
-CUBE = """v 0 0 0
-v 1 0 0
-v 0 1 0
-v 0 0 1
-f 1 3 2
-f 1 2 4
-f 1 4 3
-f 2 3 4
-"""
+WEDGE = obj((np.eye(4)[:, :3], np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))).decode()
 WITH_MESH = (
     '<mujoco model="part"><compiler meshdir="meshes"/><asset><mesh name="wedge" file="wedge.obj"/></asset>'
     '<worldbody><body name="b"><geom name="g" type="mesh" mesh="wedge"/>'
@@ -126,12 +119,12 @@ def test_the_text_of_an_mjcf_is_loaded_and_saved_as_it_was(tmp_path: Path, monke
 
 def test_text_finds_its_files_from_the_current_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "meshes").mkdir()
-    (tmp_path / "meshes/wedge.obj").write_text(CUBE)
+    (tmp_path / "meshes/wedge.obj").write_text(WEDGE)
     monkeypatch.chdir(tmp_path)
     mesh = mf.load(WITH_MESH)
     assert mesh["b/g"].volume == pytest.approx(1 / 6)
     mf.save(drop(mesh, "b/h"), "out/part.xml")
-    assert (tmp_path / "out/meshes/wedge.obj").read_text() == CUBE
+    assert (tmp_path / "out/meshes/wedge.obj").read_text() == WEDGE
 
 
 def test_text_that_is_no_mjcf_is_refused() -> None:
@@ -153,7 +146,7 @@ def test_a_spec_is_loaded_edited_and_given_back() -> None:
 
 
 def test_a_spec_with_files_in_memory_keeps_them() -> None:
-    spec = mujoco.MjSpec.from_string(WITH_MESH, assets={"wedge.obj": CUBE.encode()})
+    spec = mujoco.MjSpec.from_string(WITH_MESH, assets={"wedge.obj": WEDGE.encode()})
     mesh = mf.load(spec)
     assert mesh["b/g"].volume == pytest.approx(1 / 6)
     model = drop(mesh, "b/h").to_mjspec().compile()
@@ -162,7 +155,7 @@ def test_a_spec_with_files_in_memory_keeps_them() -> None:
 
 def test_a_spec_of_a_file_finds_the_files_beside_that(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "meshes").mkdir()
-    (tmp_path / "meshes/wedge.obj").write_text(CUBE)
+    (tmp_path / "meshes/wedge.obj").write_text(WEDGE)
     (tmp_path / "part.xml").write_text(WITH_MESH)
     spec = mujoco.MjSpec.from_file(str(tmp_path / "part.xml"))
     monkeypatch.chdir("/")
@@ -235,6 +228,6 @@ def test_what_was_put_into_folders_for_libraries_goes_when_the_process_ends(tmp_
         "print(mesh.asset.path, mesh.asset.path.is_file())"
     )
     environment = {**os.environ, "TMPDIR": str(tmp_path)}
-    words = [sys.executable, "-c", code, WITH_MESH, CUBE]
+    words = [sys.executable, "-c", code, WITH_MESH, WEDGE]
     done = subprocess.run(words, capture_output=True, text=True, check=True, env=environment)
     assert done.stdout.split()[1] == "True" and list(tmp_path.iterdir()) == []

@@ -1,3 +1,5 @@
+"""Rebuilt bodies: which hulls are rebuilt and by what, and that no gap is left in the surface that hulls held."""
+
 from __future__ import annotations
 
 import json
@@ -16,7 +18,9 @@ from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, RebuildSettings
 from meshforge.project.preparation_plan import find_new_assets
 from meshforge.symbolic import Label, LabelSource
-from tests.unit.project.stools import PARTS, boxes, create_stools, write_stool
+from tests.soups import merge_solids
+from tests.surface_cover import sample_lost
+from tests.unit.project.stools import PARTS, boxes, coarse, create_stools, write_stool
 
 SURE = 0.7  # two labelled assets do not make it surer
 
@@ -199,3 +203,24 @@ def test_a_project_with_splits_of_an_earlier_version_is_read_and_they_are_taken_
     assert unclear is None and plans["c.urdf"].rebuild == RebuildSettings(0.7)
     assert opened.unprepare("c.urdf").undone == ("4 hulls divided into 5 hulls",)
     assert list(opened.mesh("c.urdf").index) == list(before.index)
+
+
+SIZES = {"a": (0.2, 0.4), "b": (0.22, 0.45), "c": (0.18, 0.5)}
+
+
+def test_a_missing_hull_is_a_gap() -> None:
+    parts = boxes(*SIZES["c"])
+    lost = sample_lost(*merge_solids(parts), parts, parts[1:])
+    assert len(lost) > 100
+    assert np.all(lost[:, 2] > SIZES["c"][1] - 0.01), "of the seat"
+
+
+@pytest.mark.slow
+def test_stools_have_no_gap_where_hulls_that_span_parts_were(tmp_path: Path) -> None:
+    project = create_stools(tmp_path, SIZES, spanning="c")
+    parts = boxes(*SIZES["c"])
+    assert list(project.rebuild_spanning(["c.urdf"], RebuildSettings(0.5)))
+    after = [hull.shape for hull in project.mesh("c.urdf").hulls]
+    before = coarse(parts)
+    assert len(after) > len(before)
+    assert not len(sample_lost(*merge_solids(parts), before, after))

@@ -1,3 +1,5 @@
+"""Meshes: contacts, names of hulls and labels."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -5,9 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import meshforge as mf
+from meshforge.checks import check
 from meshforge.common import MeshForgeError
+from meshforge.formats import load
 from meshforge.geometry import Aabb, Box, Pose, Sphere
 from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Label, SymbolicMesh, split_by_contact
+from tests.corpus_path import corpus
+from tests.nearest import distance_bracket
+from tests.unit.batch.families import write_urdf_table
+from tests.unit.rendering.scenes import table
 
 
 def box(x: float, size: float = 1.0) -> Box:
@@ -103,3 +112,52 @@ def test_a_mesh_becomes_its_asset_again_with_its_hulls_as_geoms() -> None:
 def test_a_mesh_made_in_memory_has_no_asset_to_become() -> None:
     with pytest.raises(MeshForgeError, match="made in memory"):
         row(0).to_asset()
+
+
+def test_a_hull_is_got_by_its_name() -> None:
+    mesh = table()
+    assert mesh["leg1"] is mesh.hulls[3]
+    assert "leg1" in mesh and "leg2" not in mesh
+    assert [hull.name for hull in mesh] == [hull.name for hull in mesh.hulls]
+
+
+def test_a_name_that_no_hull_has_is_a_key_error_with_the_nearest_one(tmp_path: Path) -> None:
+    with pytest.raises(KeyError) as caught:
+        mf.load(write_urdf_table(tmp_path))["body/tpo"]
+    assert isinstance(caught.value, mf.MeshForgeError)
+    assert str(caught.value) == f"{tmp_path}/table.urdf: there is no hull 'body/tpo'\n  Did you mean 'body/top'?"
+    with pytest.raises(mf.MeshForgeError, match=r"It has 5 hulls; see `\.index`"):
+        table()["zzzz"]
+
+
+def test_labels_are_given_by_name_when_a_mesh_is_loaded(tmp_path: Path) -> None:
+    path = write_urdf_table(tmp_path)
+    mesh = mf.load(path, labels={"body/top": "seat", "body/left": mf.Label("side", 0.5, "vlm")})
+    assert [h.label for h in mesh.hulls] == ["seat", "side", None, None]  # those of the file beside it do not count
+    assert (mesh["body/top"].confidence, mesh["body/top"].source) == (1.0, "user")
+    assert mesh["body/left"].confidence == 0.5
+    assert all(hull.label is None for hull in mf.load(path, labels={}).hulls)
+    with pytest.raises(mf.MeshForgeError, match="Did you mean 'body/top'"):
+        mf.load(path, labels={"body/topp": "seat"})
+
+
+REAL = {
+    "cups_mugs/pybullet-URDF-models": ("green_cup/model.urdf", "blue_cup/model.urdf"),
+    "soap_bottles/pybullet-URDF-models": ("cleanser/model.urdf",),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("family", "asset"), [(family, asset) for family, assets in REAL.items() for asset in assets])
+def test_contacts_of_a_real_asset_are_those_of_brute_force(family: str, asset: str) -> None:
+    (path,) = sorted(corpus(family).rglob(asset))
+    mesh = load(path)
+    for i, a in enumerate(mesh.hulls):
+        for j, b in enumerate(mesh.hulls[i + 1 :], i + 1):
+            if (a.aabb.min - b.aabb.max).max() > mesh.contact_distance:
+                assert (i, j) not in mesh.contacts
+                continue
+            below, above, _ = distance_bracket(a.shape, b.shape)
+            assert ((i, j) in mesh.contacts) == (above <= mesh.contact_distance)
+            assert above - below < 1e-6 * mesh.diagonal
+    assert [finding for finding in check(mesh) if finding.severity == "error"] == []
