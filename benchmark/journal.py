@@ -19,8 +19,13 @@ ROOT = Path(__file__).resolve().parents[1]
 JOURNALS = ROOT / ".bench"
 _FOLDERS = {"meshforge": ROOT / "src", "benchmark": ROOT, "script": ROOT}
 """Where the packages lie whose code results depend on."""
-_PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", "benchmark/tasks/*/templates/*",
-             "benchmark/assets/data/*")  # fmt: skip
+_CRITERIA = (
+    "benchmark/criteria/*.py",
+    *(f"src/meshforge/checks/physics/{name}.py" for name in ("scene", "objects", "gripper", "motion")),
+)
+_PROTOCOL = (*_CRITERIA, "benchmark/tasks/*/task.toml", "benchmark/tasks/*/templates/*", "benchmark/assets/data/*")
+_MOVED = {"c4b02ffe6bb53905": "0106c17431d1ddb3", "bf7944a3e5e42c41": "64b2d53ae2223729"}
+"""Digests of a protocol before and after criteria moved into the source, where verdicts stayed (decision 0084)."""
 _DATA = ("src/meshforge/**/*.lark", "src/meshforge/*/*.json", *_PROTOCOL)
 _REAL = ("benchmark/real/**/*.toml", "benchmark/real/**/*.obj")
 Unit = tuple[Any, ...]
@@ -39,9 +44,12 @@ def digest(module: str) -> str:
 @cache
 def digest_protocol(part: str) -> str:
     """A digest of the meshes, the tasks and their criteria that a part is about."""
-    return _digest(
-        ("benchmark/criteria/*.py", *_REAL) if part in ("real", "real_families", "real_assets") else _PROTOCOL
-    )
+    return _digest((*_CRITERIA, *_REAL) if part in ("real", "real_families", "real_assets") else _PROTOCOL)
+
+
+def is_of_protocol(part: str, measured: str | None) -> bool:
+    """Whether a part was measured on today's meshes, tasks and criteria; measured: the digest of its protocol then."""
+    return digest_protocol(part) in (measured, _MOVED.get(measured or ""))
 
 
 def list_sources(module: str) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 from benchmark.evaluation.changes import tell_changes
 from benchmark.evaluation.pictures import draw, list_pictures
 from benchmark.evaluation.plots import plots
-from benchmark.journal import digest_protocol
+from benchmark.journal import is_of_protocol
 from benchmark.report import Result, Table, as_text, format_table
 from meshforge.common import write_atomically
 
@@ -69,7 +69,7 @@ def _tell_missing(
     """What was not run, or on other meshes, tasks or criteria than today's."""
     if missing := [part for part in parts if part not in results]:
         yield f"**Not run yet: `script/bench {' '.join(missing)}`.**\n"
-    if earlier := [f"`{data['part']}`" for data in found if data.get("protocol") != digest_protocol(data["part"])]:
+    if earlier := [f"`{data['part']}`" for data in found if not is_of_protocol(data["part"], data.get("protocol"))]:
         yield f"**Measured before the last change of meshes, tasks or criteria: {', '.join(earlier)}.**\n"
     absent = [str(row[0]) for table in _list_tables(results) for row in table.rows if "not run" in map(str, row[1:])]
     if absent:
