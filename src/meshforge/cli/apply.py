@@ -11,7 +11,7 @@ import typer
 
 from meshforge import batch
 from meshforge.batch import apply as run_program
-from meshforge.checks import CheckOptions
+from meshforge.checks import CheckOptions, Goal
 from meshforge.cli import options
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork, work_of_program, work_of_project
 from meshforge.cli.console import NoteLog, progress
@@ -57,6 +57,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
     log = NoteLog(len(work.jobs) > 2)
+    goals = work.project.read_goals() if work.project and not given.dry_run else {}
     for failed in work.new.failed:
         summary.add(failed)
         done.append(failed) if given.json else typer.echo(describe_failure(failed))
@@ -72,13 +73,14 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
                 else:
                     typer.echo(_describe_outcome(outcome, log))
     except BaseException:  # what a run did that cannot go on is told, too
-        _print_lines(done, summary.find_alarms(), {})
+        _print_lines(done, summary.find_alarms(), {}, {})
         raise
     alarms = summary.find_alarms()
     if not given.dry_run:
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    _print_lines(done, alarms, work.describe_result_statuses() if done else {})
+    goal_lines, rows, goals_fail = _try_goals(given, work, goals) if goals else ([], {}, False)
+    _print_lines(done, alarms, work.describe_result_statuses() if done else {}, rows)
     if work.new.prepared:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
 
@@ -95,6 +97,8 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
+        for line in goal_lines:
+            typer.echo(line)
     for text in summary.describe_absent_labels(work.program):
         remark(text)
     if given.report:
@@ -102,15 +106,32 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
     if outliers:
         remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
-    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers))
+    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or goals_fail)
 
 
-def _print_lines(
-    done: Iterable[batch.AssetOutcome], alarms: Alarms, result_statuses: Mapping[str, Mapping[str, Any]]
-) -> None:
+def _try_goals(
+    given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
+) -> tuple[list[str], dict[str, dict[str, Any]], bool]:
+    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, and whether one fails."""
+    from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
+
+    assert work.project
+    with progress(len(work.jobs), "trying goals") as advance:
+        execution = replace(given.execution.to_options(), progress=advance, timeout=batch.GOAL_EXECUTION.timeout)
+        found = list(work.project.try_goals(goals, execution=execution))
+    return (
+        describe_goals(goals, found),
+        {one.asset: {"goals": list_rows(one)} for one in found},
+        have_failed(goals, found),
+    )
+
+
+def _print_lines(done: Iterable[batch.AssetOutcome], alarms: Alarms, *more: Mapping[str, Mapping[str, Any]]) -> None:
     for outcome in done:
         line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
-        print_json({**line, **result_statuses.get(outcome.asset, {})}, compact=True)
+        for own in more:
+            line |= own.get(outcome.asset, {})
+        print_json(line, compact=True)
 
 
 def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:

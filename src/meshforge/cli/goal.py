@@ -1,6 +1,6 @@
 """`meshforge goal`: what assets must do, tried on a family, and kept with the project."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from shutil import copyfile
@@ -69,15 +69,13 @@ def goal(given: GoalArguments) -> None:
     if given.pictures:
         _copy_pictures(found, given.pictures)
     if given.json:
-        print_json({"goals": [_to_json(name, one, found) for name, one in goals.items()]})
+        print_json([{"asset": one.asset, "error": one.error, "goals": list_rows(one)} for one in found])
     else:
-        for name, kind in goals.items():
-            typer.echo("\n".join(_describe_goal(name, kind, found)))
+        typer.echo("\n".join(describe_goals(goals, found)))
     for one in found:
         if one.error:
             remark(one.error)
-    failed = any(one.error for one in found) or any(_has_failed(name, found, given.strict) for name in goals)
-    raise typer.Exit(int(failed))
+    raise typer.Exit(int(any(one.error for one in found) or have_failed(goals, found, given.strict)))
 
 
 def _choose_goals(project: Project, expression: str | None, add: str | None) -> Mapping[str, Goal]:
@@ -92,13 +90,19 @@ def _choose_goals(project: Project, expression: str | None, add: str | None) -> 
     return {str(found): found}
 
 
-def _has_failed(name: str, found: list[AssetGoals], strict: bool) -> bool:
-    outcomes = [one.after[name].outcome for one in found if name in one.after]
+def have_failed(goals: Iterable[str], found: Sequence[AssetGoals], strict: bool = False) -> bool:
+    """Return whether a goal fails or breaks on an asset, or was tried on none; strict: or not on one."""
     wrong = {"failed", "broken", *(["untried"] if strict else [])}
-    return set(outcomes) <= {"untried"} or not wrong.isdisjoint(outcomes)
+    outcomes = ({one.after[name].outcome for one in found if name in one.after} for name in goals)
+    return any(own <= {"untried"} or not wrong.isdisjoint(own) for own in outcomes)
 
 
-def _describe_goal(name: str, goal: Goal, found: list[AssetGoals]) -> list[str]:
+def describe_goals(goals: Mapping[str, Goal], found: Sequence[AssetGoals]) -> list[str]:
+    """Return what came of goals, line by line."""
+    return [line for name, kind in goals.items() for line in _describe_goal(name, kind, found)]
+
+
+def _describe_goal(name: str, goal: Goal, found: Sequence[AssetGoals]) -> list[str]:
     title = f"{goal}" if name == str(goal) else f"{escape_name(name)}: {goal}"
     before = [one.before[name].outcome for one in found if name in one.before]
     after = {one.asset: one for one in found if name in one.after}
@@ -123,25 +127,23 @@ def _describe_goal(name: str, goal: Goal, found: list[AssetGoals]) -> list[str]:
     return lines
 
 
-def _to_json(name: str, goal: Goal, found: list[AssetGoals]) -> dict[str, Any]:
-    return {
-        "name": name,
-        "goal": str(goal),
-        "assets": [
-            {
-                "asset": one.asset,
-                "before": one.before[name].outcome if name in one.before else None,
-                "now": one.after[name].outcome if name in one.after else None,
-                "why": one.after[name].why if name in one.after else one.error,
-                "hulls": list(one.after[name].hulls) if name in one.after else [],
-                "picture": str(one.pictures[name]) if name in one.pictures else None,
-            }
-            for one in found
-        ],
-    }
+def list_rows(one: AssetGoals) -> list[dict[str, Any]]:
+    """Return what came of goals on an asset as JSON-able data."""
+    return [
+        {
+            "name": name,
+            "goal": result.goal,
+            "before": one.before[name].outcome if name in one.before else None,
+            "now": result.outcome,
+            "why": result.why,
+            "hulls": list(result.hulls),
+            "picture": str(one.pictures[name]) if name in one.pictures else None,
+        }
+        for name, result in one.after.items()
+    ]
 
 
-def _copy_pictures(found: list[AssetGoals], folder: Path) -> None:
+def _copy_pictures(found: Sequence[AssetGoals], folder: Path) -> None:
     for one in found:
         for picture in one.pictures.values():
             target = folder / f"{one.asset}.{picture.name.rsplit('.', 2)[1]}.png"

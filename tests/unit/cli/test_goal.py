@@ -38,8 +38,8 @@ def test_what_fails_is_named_with_a_picture_and_exits_with_1(run: Run, project: 
     assert "0 of 3 assets, 0 before" in said.out and "failed on table0/model.obj, as before: part 1: it is" in said.out
     assert len(list(Path("shown").rglob("*.png"))) == 3
     found = json.loads(run("goal", "tables", "graspable(Is(top), width = 1 mm)", "--json").out)
-    (one,) = found["goals"]
-    assert [row["now"] for row in one["assets"]] == ["failed"] * 3 and Path(one["assets"][0]["picture"]).exists()
+    rows = [row for one in found for row in one["goals"]]
+    assert [row["now"] for row in rows] == ["failed"] * 3 and Path(rows[0]["picture"]).exists()
 
 
 def test_what_is_untried_is_no_failure_unless_everywhere_or_asked_for(run: Run, project: Project) -> None:
@@ -103,3 +103,15 @@ def test_a_goal_follows_a_rename(run: Run, project: Project) -> None:
     project.set_goal("top", CARRIES)
     run("label", "tables", "--rename", "top=plate")
     assert project.settings.goals == {"top": "supports(Is(plate))"}
+
+
+def test_apply_tries_the_goals_of_a_project_and_exits_with_1_where_one_fails(run: Run, project: Project) -> None:
+    project.set_goal("top", CARRIES)
+    done = run("apply", "tables", "--accept-outliers")
+    assert done.code == 0 and f"top: {CARRIES}: 3 of 3 assets, 3 before" in done.out
+    project.set_goal("grip", "graspable(Is(top), width = 1 mm)")
+    done = run("apply", "tables", "--accept-outliers", "--json")
+    lines = [json.loads(line) for line in done.out.splitlines()]
+    assert done.code == 1
+    assert [[row["now"] for row in line["goals"]] for line in lines] == [["passed", "failed"]] * 3
+    assert run("apply", "tables", "--dry-run", "--accept-outliers").code == 0
