@@ -21,7 +21,7 @@ __getattr__, __all__ = export_lazily(
         "replies": "has_agreed_labels",
         "review": "FamilyAssessment ProjectReview assess_family",
         "run": "make_manual_edit output_digest run_with_manual_edits",
-        "run_report": ("add_result_status build_run_report format_review format_status summarize_outputs"),
+        "run_report": "add_result_status build_run_report format_review format_status summarize_outputs",
         "sign_offs": "AssessmentBasis digest_inputs",
         "family_step": "choose_next_step",
         "next_step": "NextStep format_first format_next format_step",

@@ -226,7 +226,7 @@ class ResultStatuses:
     last: AssessmentFile | None
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
-        """Return an asset with how it status."""
+        """Return an asset with how its result stands."""
         line = self.last.assets.get(asset.id) if self.last else None
         sign_off = self.signed.get(asset.id)
         void = self._find_void(asset, sign_off)

@@ -11,7 +11,7 @@ __getattr__, __all__ = export_lazily(
             "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy LabelLook color_hulls label_color label_colors "
             "look_of"
         ),
-        "comparison": ("LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_volumes"),
+        "comparison": "LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_volumes",
         "id_buffer": "ThumbnailPixels render_revealing render_thumbnail",
         "labeling.picture": "LabelingPicture",
         "labeling.series": "draw_labeling_pictures",

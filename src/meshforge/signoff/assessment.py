@@ -203,7 +203,7 @@ ResultState = ResultStatusWord | Literal["void", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class ResultStatus:
-    """How one asset status.
+    """How the result of one asset stands.
 
     probability: that its edit is right, in 0..1, None where that is not known; reasons: why it may be wrong, the
     weightiest first; state: whether it is signed off; by: by whom; void: what changed since it was; excluded: why it is
@@ -220,7 +220,7 @@ class ResultStatus:
 
     @property
     def confidence(self) -> float:
-        """The probability, -1 where it is not known: what bars and orders compare."""
+        """The probability, -1 where it is not known: what thresholds and orders compare."""
         return -1.0 if self.probability is None else self.probability
 
     @property
@@ -236,7 +236,8 @@ class ResultStatus:
     def with_reasons(self, more: Iterable[Reason]) -> Self:
         """Return the same with further doubts: it is at most as probable as that the weightiest of them is none."""
         more = list(more)
-        probability = min([self.confidence, *(1 - one.share for one in more)])
+        known = self.probability
+        probability = None if known is None else min([known, *(1 - one.share for one in more)])
         reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]
         return replace(self, probability=probability, reasons=tuple(reasons))
 
@@ -261,7 +262,7 @@ class ResultStatus:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """A family as it status. assets: by name, in the family's order; looked_at: those of which a person accepted the
+    """A family as it stands. assets: by name, in the family's order; looked_at: those of which a person accepted the
     result, or said what it is; wrong: those of which they only said that it is wrong; excluded: those given up, those
     that are not of the family too; questions: all that could be asked now, what is worth most first.
     """

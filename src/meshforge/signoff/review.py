@@ -53,7 +53,7 @@ def review_family(
     threshold: float = THRESHOLD,
     alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
 ) -> Assessment:
-    """Return how the family status.
+    """Return how the family stands.
 
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
