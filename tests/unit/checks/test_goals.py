@@ -42,10 +42,9 @@ def test_a_goal_is_read_and_printed_or_says_what_is_wrong_with_it(row: Mapping[s
 EXTRACTORS = st.sampled_from(["All", "Is(top)", 'Is("no word")', "Geo(Is(top), +Z)", "Attach(All, Is(drawer))"]).map(
     parse_extractor
 )
-LENGTHS = st.floats(1e-6, 1e6)
 VALUES: Mapping[str, st.SearchStrategy[Any]] = {
     "_extractor": EXTRACTORS | st.builds(lambda a, b: a | b, EXTRACTORS, EXTRACTORS),
-    "QUANTITY": LENGTHS,
+    "QUANTITY": st.floats(1e-6, 1e6),
     "DIRECTION": st.sampled_from(["+X", "-X", "+Y", "-Y", "+Z", "-Z"]),
 }
 
