@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Pose, rotation_about
+from meshforge.signoff import GoalStatus, ResultStatus
+from meshforge.signoff.assessment import STANDS_OUT
 from meshforge.signoff.outliers import EditMeasures, find_alarms, measure_edit
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.examples import examples
@@ -49,6 +53,28 @@ def test_alarms_do_not_depend_on_the_order_of_assets(family: dict[str, EditMeasu
     found, again = find_alarms(family), find_alarms({name: family[name] for name in names})
     assert found == again
     assert list(found) == [name for name in family if name in found]
+
+
+GOALS = st.builds(
+    GoalStatus,
+    name=st.sampled_from("abc"),
+    goal=st.just("stands"),
+    outcome=st.sampled_from(["passed", "failed", "untried", "broken", None]),
+    before=st.sampled_from(["passed", "failed", "untried", None]),
+    accepted=st.booleans(),
+)
+
+
+@given(st.none() | st.floats(0, 1), st.lists(GOALS, max_size=4), st.randoms())
+def test_a_goal_that_fails_is_a_doubt_and_no_other_is(share: float | None, goals: list[GoalStatus], order: Any) -> None:
+    status = ResultStatus(share)
+    found, fails = status.with_goals(goals), any(goal.fails for goal in goals)
+    assert found.probability == (share if share is None or not fails else min(share, STANDS_OUT))
+    assert [reason.kind for reason in found.reasons] == ["goal"] * sum(goal.fails for goal in goals)
+    assert found.with_goals(goals).probability == found.probability
+    order.shuffle(goals)
+    assert status.with_goals(goals).probability == found.probability
+    assert {*found.open_goals} == {one for one in goals if one.fails or one.outcome is None}
 
 
 @given(FAMILIES)

@@ -551,7 +551,7 @@ export interface ConfidenceView {
  * share: the probability, in 0..1, that the edit is wrong for this alone.
  */
 export interface Reason {
-  kind: "candidate" | "label" | "orientation" | "outlier" | "alarm";
+  kind: "candidate" | "label" | "orientation" | "outlier" | "alarm" | "goal";
   text: string;
   hulls: string[];
   rule: number | null;

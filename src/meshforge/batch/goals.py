@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from meshforge.checks.goals.base import Goal, GoalOutcome, GoalResult, GoalSubje
 from meshforge.checks.goals.registry import parse_goal
 from meshforge.common import describe_error, write_atomically
 from meshforge.geometry import Shape
+from meshforge.language import Program
 from meshforge.rendering import draw_volumes, render, write_png
 from meshforge.symbolic import Asset, Surface, SymbolicMesh, transfer_labels
 
@@ -100,6 +101,10 @@ class _ResultRecord(BaseModel):
     why: str = ""
     hulls: tuple[str, ...] = ()
 
+    @property
+    def result(self) -> GoalResult:
+        return GoalResult(self.goal, self.outcome, self.why, self.hulls)
+
 
 class _ResultFile(BaseModel):
     """By the digest of what decides each; the oldest first."""
@@ -107,12 +112,46 @@ class _ResultFile(BaseModel):
     results: dict[str, _ResultRecord] = {}
 
 
+def recall_goals(
+    goals: Mapping[str, Goal], edit: ApplyTask, inputs: Mapping[str, provenance.OutputInputs]
+) -> Iterator[AssetGoals]:
+    """Yield what is known of goals on assets without trying any: of some nothing. inputs: of their edits, by asset."""
+    for asset, made in inputs.items():
+        file = _locate_kept(edit.out, asset)
+        kept = _read_kept(file)
+        keys = {
+            name: [_digest_goal(goal, edit.program, made, edited=edited) for edited in (False, True)]
+            for name, goal in goals.items()
+        }
+        before, after = ({name: kept[two[k]].result for name, two in keys.items() if two[k] in kept} for k in (0, 1))
+        pictures = {name: _locate_picture(file, key) for name, (_, key) in keys.items()}
+        yield AssetGoals(asset, before, after, {name: one for name, one in pictures.items() if one.exists()})
+
+
+def _digest_goal(goal: Goal, program: Program, inputs: provenance.OutputInputs, *, edited: bool) -> str:
+    """The digest of all that decides the result of a goal. inputs: of the edit."""
+    made = inputs.model_dump(exclude={"settings", "software"})
+    if not edited:
+        made |= {"program": "", "templates": {}, "manual_edits": None, "selections": None}
+    frame = [str(program.orient), program.contact, program.extremity]
+    software = [provenance.software_version([goal.plugin]), _engine()]
+    return provenance.value_digest([_FORM, made, frame, str(goal), software])
+
+
+def _locate_kept(out: Path, asset: str) -> Path:
+    return out / STATE / "goals" / f"{asset}.json"
+
+
+def _locate_picture(kept: Path, key: str) -> Path:
+    return kept.with_name(f"{kept.stem}.{key[:12]}.png")
+
+
 class _GoalRun:
     """One asset: what is known of its goals, and what has to be tried."""
 
     def __init__(self, task: GoalTask, job: AssetJob) -> None:
         self._task, self._job = task, job
-        self._file = task.edit.out / STATE / "goals" / f"{job.id}.json"
+        self._file = _locate_kept(task.edit.out, job.id)
         self._known = {} if task.again else _read_kept(self._file)
         self._present = dict[str, _ResultRecord]()
 
@@ -129,8 +168,7 @@ class _GoalRun:
         """The result of a goal, and the picture of its failure after the edit."""
         key = self._key(goal, edited=edited)
         kept = self._known.get(key) or self._present.get(key)
-        picture = self._file.with_name(f"{self._file.stem}.{key[:12]}.png")
-        result = GoalResult(kept.goal, kept.outcome, kept.why, kept.hulls) if kept else None
+        picture, result = _locate_picture(self._file, key), kept.result if kept else None
         if result is None:
             subject = self._subject_after if edited else self._subject_before
             result = try_goal(goal, subject)
@@ -140,13 +178,7 @@ class _GoalRun:
         return replace(result, objects=()), picture if edited and result.outcome == "failed" else None
 
     def _key(self, goal: Goal, *, edited: bool) -> str:
-        """The digest of all that decides the result of a goal."""
-        program, made = self._task.edit.program, self._inputs.model_dump(exclude={"settings", "software"})
-        if not edited:
-            made |= {"program": "", "templates": {}, "manual_edits": None, "selections": None}
-        frame = [str(program.orient), program.contact, program.extremity]
-        software = [provenance.software_version([goal.plugin]), _engine()]
-        return provenance.value_digest([_FORM, made, frame, str(goal), software])
+        return _digest_goal(goal, self._task.edit.program, self._inputs, edited=edited)
 
     @cached_property
     def _inputs(self) -> provenance.OutputInputs:
@@ -193,7 +225,7 @@ class _GoalRun:
         earlier = {key: one for key, one in _read_kept(self._file).items() if key not in self._present}
         recent = dict(list(earlier.items())[-_MOST_KEPT:])
         for key in earlier.keys() - recent.keys():
-            self._file.with_name(f"{self._file.stem}.{key[:12]}.png").unlink(missing_ok=True)
+            _locate_picture(self._file, key).unlink(missing_ok=True)
         text = _ResultFile(results={**recent, **self._present}).model_dump_json(indent=1)
         write_atomically(self._file, text)
 
@@ -206,6 +238,7 @@ def _read_kept(path: Path) -> dict[str, _ResultRecord]:
         return {}
 
 
+@cache
 def _engine() -> str:
     try:
         return version("mujoco")

@@ -76,10 +76,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         _print_lines(done, summary.find_alarms(), {}, {})
         raise
     alarms = summary.find_alarms()
+    goal_lines, rows, goals_fail = _try_goals(given, work, goals) if goals else ([], {}, False)
     if not given.dry_run:
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    goal_lines, rows, goals_fail = _try_goals(given, work, goals) if goals else ([], {}, False)
     _print_lines(done, alarms, work.describe_result_statuses() if done else {}, rows)
     if work.new.prepared:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
@@ -119,10 +119,11 @@ def _try_goals(
     with progress(len(work.jobs), "trying goals") as advance:
         execution = replace(given.execution.to_options(), progress=advance, timeout=batch.GOAL_EXECUTION.timeout)
         found = list(work.project.try_goals(goals, execution=execution))
+    accepted = work.project.read_accepted_goals()
     return (
-        describe_goals(goals, found),
+        describe_goals(goals, found, accepted),
         {one.asset: {"goals": list_rows(one)} for one in found},
-        have_failed(goals, found),
+        have_failed(goals, found, accepted=accepted),
     )
 
 

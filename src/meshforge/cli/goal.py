@@ -1,9 +1,10 @@
 """`meshforge goal`: what assets must do, tried on a family, and kept with the project."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from shutil import copyfile
+from types import MappingProxyType
 from typing import Annotated, Any
 
 import typer
@@ -17,6 +18,7 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.project import Project
 
+NONE_ACCEPTED: Mapping[str, Collection[str]] = MappingProxyType({})
 _USAGES = "; ".join(kind.usage() for kind in GOALS.built_in.values())
 
 
@@ -90,19 +92,34 @@ def _choose_goals(project: Project, expression: str | None, add: str | None) -> 
     return {str(found): found}
 
 
-def have_failed(goals: Iterable[str], found: Sequence[AssetGoals], strict: bool = False) -> bool:
-    """Return whether a goal fails or breaks on an asset, or was tried on none; strict: or not on one."""
+def have_failed(
+    goals: Iterable[str],
+    found: Sequence[AssetGoals],
+    strict: bool = False,
+    accepted: Mapping[str, Collection[str]] = NONE_ACCEPTED,
+) -> bool:
+    """Return whether a goal fails or breaks on an asset, or was tried on none; strict: or not on one; accepted: texts
+    of those that do not count, by asset."""
     wrong = {"failed", "broken", *(["untried"] if strict else [])}
-    outcomes = ({one.after[name].outcome for one in found if name in one.after} for name in goals)
-    return any(own <= {"untried"} or not wrong.isdisjoint(own) for own in outcomes)
+    for name in goals:
+        results = [(one.asset, one.after[name]) for one in found if name in one.after]
+        if all(result.outcome == "untried" for _, result in results) or any(
+            result.outcome in wrong and result.goal not in accepted.get(asset, ()) for asset, result in results
+        ):
+            return True
+    return False
 
 
-def describe_goals(goals: Mapping[str, Goal], found: Sequence[AssetGoals]) -> list[str]:
-    """Return what came of goals, line by line."""
-    return [line for name, kind in goals.items() for line in _describe_goal(name, kind, found)]
+def describe_goals(
+    goals: Mapping[str, Goal], found: Sequence[AssetGoals], accepted: Mapping[str, Collection[str]] = NONE_ACCEPTED
+) -> list[str]:
+    """Return what came of goals, line by line; accepted: see `have_failed`."""
+    return [line for name, kind in goals.items() for line in _describe_goal(name, kind, found, accepted)]
 
 
-def _describe_goal(name: str, goal: Goal, found: Sequence[AssetGoals]) -> list[str]:
+def _describe_goal(
+    name: str, goal: Goal, found: Sequence[AssetGoals], accepted: Mapping[str, Collection[str]]
+) -> list[str]:
     title = f"{goal}" if name == str(goal) else f"{escape_name(name)}: {goal}"
     before = [one.before[name].outcome for one in found if name in one.before]
     after = {one.asset: one for one in found if name in one.after}
@@ -117,6 +134,7 @@ def _describe_goal(name: str, goal: Goal, found: Sequence[AssetGoals]) -> list[s
         result = one.after[name]
         if result.outcome in ("failed", "broken"):
             too = ", as before" if name in one.before and one.before[name].outcome == "failed" else ""
+            too += ", accepted all the same" if result.goal in accepted.get(one.asset, ()) else ""
             lines.append(f"  {result.outcome} on {escape_name(one.asset)}{too}: {result.why}")
             if name in one.pictures:
                 lines.append(f"    picture: {escape_name(str(one.pictures[name]))}")

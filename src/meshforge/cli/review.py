@@ -75,7 +75,7 @@ def review(given: ReviewArguments) -> None:
         _print_review(project, found, shlex.quote(str(given.project)), asked=asks)
     for asset, why in session.taken_back.items():
         remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    raise typer.Exit(int(bool(found.assessment.need_review or missed)))
+    raise typer.Exit(int(not found.assessment.is_done or missed > 0))
 
 
 def _print_review(project: Project, found: ProjectReview, word: str, *, asked: bool) -> None:
@@ -102,6 +102,7 @@ def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
     return {
         "signed_off": len(assessment.signed_off),
         "needs_review": [{"asset": name, **assessment.assets[name].to_json()} for name in assessment.need_review],
+        "goals": {asset: [goal.to_json() for goal in goals] for asset, goals in assessment.failures.items()},
         "excluded": dict(sorted(assessment.excluded.items())),
         "question": {**question.to_json(), "pictures": list(map(str, pictures))} if question else None,
         "lost": dict(found.lost),

@@ -135,18 +135,27 @@ _SIZE, _SMALL_SIZE = (720, 560), (480, 374)
 
 
 def draw_question(project: Project, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
-    """Draw what a question is about: one picture of each choice, or one of all; those of the question before are taken
-    away. Return their paths, as one types them here; none where it cannot be drawn."""
+    """Draw what a question is about: one picture of each choice, or one of all, and of goals that fail there; those of
+    the question before are taken away. Return their paths, as one types them here; none where it cannot be drawn."""
     folder = project.layout.review_pictures
     shutil.rmtree(folder, ignore_errors=True)
     with progress(None, "drawing"), suppress(MeshForgeError):
-        return [_write(folder / f"{name}.png", picture) for name, picture in _draw(project, found, question)]
+        drawn = _draw(project, found, question)
+        failures = found.assessment.failures.get(question.asset, ()) if question.goals else ()
+        return [
+            *(_write(folder / f"{name}.png", picture) for name, picture in drawn),
+            *(_shorten(goal.picture) for goal in failures if goal.picture),
+        ]
     return []
 
 
 def _write(path: Path, picture: Image) -> Path:
-    here = Path.cwd()
     write_png(path, picture)
+    return _shorten(path)
+
+
+def _shorten(path: Path) -> Path:
+    here = Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
 
 

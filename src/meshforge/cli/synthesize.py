@@ -15,10 +15,10 @@ from meshforge import synthesis
 from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
-from meshforge.common import UsageError, join_names, pluralize
+from meshforge.common import UsageError, escape_name, join_names, pluralize
 from meshforge.labels import propose_class_names
 from meshforge.language import show
-from meshforge.project import format_next, learn_program, select_assets
+from meshforge.project import format_next, learn_program, select_assets, try_goals_as_shown
 from meshforge.store import MeshCache, Store, orientation_text, toml_value
 
 
@@ -65,6 +65,10 @@ def synthesize(given: SynthesizeArguments) -> None:
         budget=given.budget,
     )
     meshes = dict(project.meshes_by_id(select_assets(project)))
+    for one in try_goals_as_shown(project, meshes):
+        for name, result in one.after.items():
+            if result.outcome == "failed":
+                remark(f"{escape_name(one.asset)} as it was demonstrated fails goal {name}: {result.why}")
     with progress(None, "learning"), catch_interrupt() as stop:
         outcome = learn_program(project, accept=not given.dry_run, options=options, stop=stop, meshes=meshes)
         stopped = stop()

@@ -5,6 +5,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "goals": "try_goals_as_shown",
         "learn": (
             "ProgramState learn_program program_by_hand sees_whole_family select_assets suggest_first_demonstration"
         ),

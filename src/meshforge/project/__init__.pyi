@@ -1,4 +1,5 @@
 # Written by `python -m script.stubs`.
+from meshforge.project.goals import try_goals_as_shown as try_goals_as_shown
 from meshforge.project.learn import ProgramState as ProgramState
 from meshforge.project.learn import learn_program as learn_program
 from meshforge.project.learn import program_by_hand as program_by_hand

@@ -226,7 +226,9 @@ def _apply(state: FamilyState) -> NextStep | None:
         )
     failed = [asset for asset in counted if asset.output == "failed" or asset in behind]
     if not failed:
-        return None
+        new = [asset for asset in counted if any(goal.outcome is None for goal in asset.result_status.goals)]
+        why = f"Try the goals, which were not tried on {pluralize(len(new), 'asset')} as they are now."
+        return _step(state, "apply", why, "apply") if new else None
     some = f"{len(failed)} of {pluralize(len(state.assets), 'asset')}, first on {failed[0].id}"
     text = f"The program fails on {some}: fix what is named, then apply it again."
     return _step(state, "apply", text, "apply", failed[0].id)
@@ -239,7 +241,9 @@ def _review(state: FamilyState) -> NextStep | None:
         return _step(state, "review", text, "review", wrong[0].id)
     left = [asset for asset in state.assets if asset.result_status.needs_review]
     if not left:
-        return None
+        failing = [asset.id for asset in state.assets if any(goal.fails for goal in asset.result_status.goals)]
+        text = f"Goals fail on {pluralize(len(failing), 'result')}: look at them, first {''.join(failing[:1])}."
+        return _step(state, "review", text, "review", failing[0]) if failing else None
     best = [asset for asset in (state.last_run.sample if state.last_run else ()) if asset in {one.id for one in left}]
     if best and all(asset.result_status.probability is None for asset in left):
         what = pluralize(len(best), "result that shows", "results that show")

@@ -8,12 +8,13 @@ from meshforge import batch, labels, language, symbolic
 from meshforge.common import MeshForgeError, format_share, quote_path, relative_name
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.family_step import choose_next_step
+from meshforge.project.goals import read_goal_statuses
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_inputs, find_bases
 from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, Status
-from meshforge.signoff import THRESHOLD, ExclusionReason, ResultState, ResultStatus
+from meshforge.signoff import THRESHOLD, ExclusionReason, GoalStatus, ResultState, ResultStatus
 from meshforge.store import (
     AssessmentFile,
     AssetFacts,
@@ -72,7 +73,13 @@ def compute_status(
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
     current = last if last and last.holds(digest_inputs(store), edits) else None
     result_statuses = ResultStatuses(
-        find_bases(store, edits, outputs), lacks, feedback, store.exclusions(), store.sign_offs(), current
+        find_bases(store, edits, outputs),
+        lacks,
+        feedback,
+        store.exclusions(),
+        store.sign_offs(),
+        current,
+        read_goal_statuses(store, program, edits),
     )
     assets = tuple(map(result_statuses.add_to, rows))
     state = program_state_of(store, program)
@@ -215,7 +222,7 @@ def _find_lost_ids(store: Store) -> tuple[str, ...]:
 class ResultStatuses:
     """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
     not there of the others; feedback: of people; exclusions: why assets are excluded; signed: what is signed off;
-    last: what the last review found, None where something changed since.
+    last: what the last review found, None where something changed since; goals: what is known of them, by asset.
     """
 
     bases: Mapping[str, SignOffBasis]
@@ -224,14 +231,17 @@ class ResultStatuses:
     exclusions: Mapping[str, ExclusionReason]
     signed: Mapping[str, SignOff]
     last: AssessmentFile | None
+    goals: Mapping[str, tuple[GoalStatus, ...]]
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
         """Return an asset with how its result stands."""
         line = self.last.assets.get(asset.id) if self.last else None
-        sign_off = self.signed.get(asset.id)
+        sign_off, goals = self.signed.get(asset.id), self.goals.get(asset.id, ())
         void = self._find_void(asset, sign_off)
-        state = self._find_state(asset, line, bool(sign_off), bool(void))
         by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
+        state = self._find_state(asset, line and line.with_goals(goals), bool(sign_off), bool(void))
+        if state == "signed off" and by == "tool" and any(goal.fails for goal in goals):
+            state = "needs review"
         result_status = ResultStatus(
             probability=line.probability if line else None,
             reasons=line.reasons if line else (),
@@ -241,7 +251,7 @@ class ResultStatuses:
             excluded=self.exclusions.get(asset.id),
             found_since=self._find_news(line) if state == "signed off" else (),
         )
-        return replace(asset, result_status=result_status)
+        return replace(asset, result_status=result_status.with_goals(goals))
 
     def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:
         """What changed of all that a sign-off rests on, or, where there is none, since a person accepted the result."""

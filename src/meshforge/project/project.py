@@ -93,6 +93,7 @@ class Project(Store):
     read_goals = goals.read_goals
     set_goal = goals.set_goal
     try_goals = goals.try_goals
+    read_accepted_goals = goals.read_accepted_goals
     work = run.build_work
     jobs = run.build_jobs
 

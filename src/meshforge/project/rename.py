@@ -12,7 +12,7 @@ from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sou
 from meshforge.labels.like_reference import read_references
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
-from meshforge.project.goals import rename_in_goals
+from meshforge.project.goals import rename_in_goal
 from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import find_bases, find_inputs, is_written
 from meshforge.store import AssetOutput, Store, VerdictEvent, find_outputs
@@ -143,7 +143,8 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
                 tuple(replace(one, action=_rename_in_action(one.action, where, old, new)) for one in some)
                 for some in (event.seen, event.meant)
             )
-            return event.model_copy(update=dict(zip(("seen", "meant"), pairs, strict=True)))
+            goals = tuple(rename_in_goal(goal, old, new) for goal in event.goals)
+            return event.model_copy(update={**dict(zip(("seen", "meant"), pairs, strict=True)), "goals": goals})
         case files.WithdrawalEvent():
             is_fix = "#" in event.id and event.id.endswith(f"={old}")
             return event.model_copy(update={"id": f"{event.id.removesuffix(old)}{new}"}) if is_fix else event
@@ -158,8 +159,9 @@ def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: st
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):
             text = files.set_value(text, pattern, new, "names")
-        for name, goal in rename_in_goals(settings.goals, old, new).items():
-            text = text if goal == settings.goals[name] else files.set_value(text, name, goal, "goals")
+        for name, goal in settings.goals.items():
+            if (renamed := rename_in_goal(goal, old, new)) != goal:
+                text = files.set_value(text, name, renamed, "goals")
         if old in descriptions:
             text = files.set_value(files.set_value(text, new, descriptions[old], table), old, None, table)
     except ProjectError as error:

@@ -72,7 +72,7 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
             excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **origin._asdict())
             store.add_events(VerdictEvent(asset=question.asset), excluded)
         case "result", VerdictEvent() if choice:
-            run.revise_verdict(store, before, reply, origin)
+            run.revise_verdict(store, before, reply, origin, question.goals)
             if reply.labels:
                 _agree_again(store)
         case "result", ExclusionEvent() if choice:  # its result may be another one by now
@@ -120,7 +120,7 @@ def _judge(store: Store, question: ReviewQuestion, choice: ReviewChoice | None, 
         for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
             if isinstance(outcome, Failed):
                 raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
-        run.review_assets(store, asset, "accepted", origin=origin)
+        run.review_assets(store, asset, "accepted", goals=question.goals, origin=origin)
     else:
         run.review_assets(store, asset, "wrong", selections=reply.selections, labels=reply.labels, origin=origin)
         if reply.labels:

@@ -13,6 +13,7 @@ from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
 from meshforge.language import Program
 from meshforge.project.family_state import measure_results, read_family_state
+from meshforge.project.goals import read_goal_statuses
 from meshforge.project.learn import renew_program, update_classes
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, review_family
@@ -103,7 +104,8 @@ def assess_family(
     if stop and stop():
         return None
     shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
-    found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown))
+    goals = read_goal_statuses(store, program, basis.inputs)
+    found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown), goals)
     return FamilyAssessment(found, state, program, basis, measures)
 
 

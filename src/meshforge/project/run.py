@@ -168,31 +168,37 @@ def review_assets(
     *,
     selections: Mapping[int, Collection[str]] = MappingProxyType({}),
     labels: Mapping[str, str] = MappingProxyType({}),
+    goals: Sequence[str] = (),
     origin: Origin = NO_ORIGIN,
 ) -> None:
     """Accept the result of one or several assets, or call it wrong; None takes back what was said, an exclusion too.
 
     Who judges one by itself looked at it: learning keeps to what the program selected there, or to `selections`: names
     of hulls that rules should have selected, by their numbers; its output is made with these from now on. labels: of
-    its hulls, where these are wrong.
+    its hulls, where these are wrong; goals: texts of those that fail on an accepted result, and do not count there.
     Raises ProjectError, with nothing written: no output that could be accepted, no such rule, hull or label.
     """
     names = (assets,) if isinstance(assets, str) else tuple(assets)
     with store.lock():
         events = [_judge(store, asset, verdict, note, selections, origin, alone=len(names) == 1) for asset in names]
+        events = [event.model_copy(update={"goals": tuple(goals)}) for event in events] if goals else events
         more = [ExclusionEvent(asset=asset) for asset in names if asset in store.feedback().exclusions]
         given = dict.fromkeys(names, labels) if labels else {}
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
-def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, origin: Origin) -> None:
+def revise_verdict(
+    store: Store, before: VerdictEvent, reply: signoff.ReviewReply, origin: Origin, goals: tuple[str, ...] = ()
+) -> None:
     """Give another verdict on the result that one was given on before; where it is right now, what the rules did there
-    is what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
+    is what they should do, and goals that fail do not count. Raises ProjectError, with nothing written: no such rule,
+    hull or label."""
     verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
     meant = before.seen if verdict == "accepted" else ()
     if reply.selections:
         meant = _replace_selections(store, before.asset, before.seen, reply.selections)
-    event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **origin._asdict()})
+    changes = {"verdict": verdict, "note": None, "meant": meant, "goals": goals if verdict == "accepted" else ()}
+    event = before.model_copy(update={**changes, **origin._asdict()})
     given = {before.asset: reply.labels} if reply.labels else {}
     store.add_events_before(lambda: set_labels_of(store, given), event)
 

@@ -50,6 +50,7 @@ def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
     names = one.need_review
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
     lines += _format_assets([(name, one.assets[name]) for name in names], need_review, " (all with --json)")
+    lines += _format_goals((name, one.assets[name]) for name in one.assets if name not in {*names, *one.excluded})
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or say what is right there."
@@ -68,7 +69,18 @@ def format_status(found: Status) -> str:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
     lines += _format_assets([(asset.id, asset.result_status) for asset in found.open_assets], MOST_LISTED)
     doubted = [(asset.id, asset.result_status) for asset in found.assets if asset.result_status.found_since]
-    return "\n".join([*lines, *_format_assets(doubted, MOST_LISTED)])
+    lines += _format_assets(doubted, MOST_LISTED)
+    others = [(one.id, one.result_status) for one in found.assets if not one.result_status.needs_review]
+    return "\n".join([*lines, *_format_goals(others)])
+
+
+def _format_goals(found: Iterable[tuple[str, ResultStatus]]) -> Iterator[str]:
+    """A line for each goal that fails or was not tried on results."""
+    rows = dict[str, list[str]]()
+    for name, one in found:
+        for goal in one.open_goals:
+            rows.setdefault(goal.describe(), []).append(name)
+    yield from (f"  {text}: {join_names(names)}" for text, names in rows.items())
 
 
 def _format_assets(need_review: Sequence[tuple[str, ResultStatus]], most: int, rest: str = "") -> Iterator[str]:

@@ -11,6 +11,7 @@ from typing import Any, Literal, Self
 from meshforge import batch, language, signoff
 from meshforge.batch import EXECUTION_DEFAULTS
 from meshforge.project import run
+from meshforge.project.goals import read_goal_statuses
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.store import (
@@ -129,7 +130,7 @@ def keep_assessment(
             looked_at=name in found.looked_at,
             measures=measures.get(name),
         )
-        for name, one in found.assets.items()
+        for name, one in found.without_goals.items()
         if name in basis.inputs
     }
     wrong = tuple(sorted(found.wrong))
@@ -153,14 +154,15 @@ def renew_sign_offs(
     """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
 
     Where nothing changed of what a sign-off rests on, it stays whatever was found since. alarms: sentences on outputs
-    that stand out of those just written, by asset: the tool signs off none that has more of them than the review knew.
+    that stand out of those just written, by asset: the tool signs off none that has more of them than the review knew,
+    none on which a goal was not tried, and takes back those on which one fails.
     keep_persons: those of a person stay where something but what was said changed; they are void then, and named so.
     """
     last, edits = store.assessment(), find_inputs(store, execution)
     if last is None or not last.holds(digest_inputs(store), edits):
         return {}
     when = clock().astimezone(UTC).isoformat(timespec="seconds")
-    outputs = find_outputs(store.layout, edits)
+    outputs, goals = find_outputs(store.layout, edits), read_goal_statuses(store, store.program(), edits)
     bases = find_bases(store, edits, outputs)
     with store.lock():
         if alarms:
@@ -173,17 +175,24 @@ def renew_sign_offs(
             if line is None or now is None:  # it cannot be read now, so that its sign-off is void
                 kept |= {name: old} if old else {}
                 continue
-            changes, is_away = now.changes(old.rests_on) if old else (), name in away
-            good = line.passes(last.threshold) and not is_away
-            if old and not changes and old.meets(last.threshold) and not is_away:
+            changes, is_away, own = now.changes(old.rests_on) if old else (), name in away, goals.get(name, ())
+            line, failing = line.with_goals(own), [goal.describe() for goal in own if goal.fails]
+            good, is_tried = line.passes(last.threshold) and not is_away, all(not goal.is_open for goal in own)
+            stays = old and not changes and old.meets(last.threshold) and not is_away
+            if old and stays and (old.by == "person" or not failing):
                 kept[name] = old
-            elif good and outputs[name].is_whole and is_written(outputs[name].stamp, edits[name]):
+            elif (
+                good
+                and (line.looked_at or is_tried)
+                and outputs[name].is_whole
+                and is_written(outputs[name].stamp, edits[name])
+            ):
                 by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
                 kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
             elif old and (good or (keep_persons and old.by == "person" and {*changes} - {ANSWERS})):
                 kept[name] = old  # where something changed void, and named so, until its output is there again
             elif old:
-                lost[name] = _describe_loss(old, line, changes, is_away)
+                lost[name] = "; ".join(failing) or _describe_loss(old, line, changes, is_away)
         store.write_sign_offs(kept)
     return lost
 

@@ -191,14 +191,20 @@ class Status:
 
     @property
     def is_signed_off(self) -> bool:
-        """Whether every asset of the family is signed off, and there is one."""
-        return bool(self.assets) and all(asset.result_status.state == "signed off" for asset in self.assets)
+        """Whether every asset of the family is signed off, and there is one; no goal is open."""
+        states = {asset.result_status.state for asset in self.assets}
+        return states == {"signed off"} and not self.with_open_goals
 
     @property
     def is_signed_off_but_unsolved(self) -> bool:
         """Whether every asset of the family is signed off or given up, and some are signed off."""
         states = {asset.result_status.state for asset in self.assets}
-        return "signed off" in states and states <= {"signed off", "excluded"}
+        return "signed off" in states and states <= {"signed off", "excluded"} and not self.with_open_goals
+
+    @property
+    def with_open_goals(self) -> tuple[AssetStatus, ...]:
+        """Those on which a goal fails that nobody accepted, or was not tried."""
+        return tuple(asset for asset in self.assets if asset.result_status.open_goals)
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
         """Return how many assets a condition holds for."""

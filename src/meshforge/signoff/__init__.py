@@ -5,7 +5,9 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "assessment": "THRESHOLD Assessment Reason ReasonKind ReviewState ResultStatus ResultState ResultStatusWord",
+        "assessment": (
+            "THRESHOLD Assessment GoalStatus Reason ReasonKind ReviewState ResultStatus ResultState ResultStatusWord"
+        ),
         "outliers": "EditMeasures describe_outliers measure_edit",
         "question": "ExclusionReason HullPlace ReviewChoice ReviewQuestion ReviewReply question_of",
         "review": "assess_asset review_family",

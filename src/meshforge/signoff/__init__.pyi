@@ -1,6 +1,7 @@
 # Written by `python -m script.stubs`.
 from meshforge.signoff.assessment import THRESHOLD as THRESHOLD
 from meshforge.signoff.assessment import Assessment as Assessment
+from meshforge.signoff.assessment import GoalStatus as GoalStatus
 from meshforge.signoff.assessment import Reason as Reason
 from meshforge.signoff.assessment import ReasonKind as ReasonKind
 from meshforge.signoff.assessment import ReviewState as ReviewState

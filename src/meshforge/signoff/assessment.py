@@ -10,10 +10,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any, Literal, Self
 
 import numpy as np
 
+from meshforge.checks.goals.base import GoalOutcome
 from meshforge.common import format_share, join_names
 from meshforge.geometry import Floats
 from meshforge.language import Program, Template
@@ -47,7 +49,8 @@ class Calibration:
     """weights: (len(WEIGHTS),); program, result: what speaks for a program as such, and for one that does what a person
     accepted or meant on an asset [nats]; threshold: the probability from which on an asset is signed off without a
     look; families: on which it rests; risk: the share of the assets of a family that are signed off and wrong, at most,
-    as far as can be expected."""
+    as far as can be expected; goals: what speaks for an edit in a goal that holds after it, by the outcome before
+    [nats]."""
 
     weights: Floats
     program: float
@@ -55,6 +58,7 @@ class Calibration:
     threshold: float
     families: int
     risk: float
+    goals: Mapping[str, float]
 
 
 @cache
@@ -63,7 +67,7 @@ def read_calibration() -> Calibration:
     read = json.loads(files("meshforge.signoff").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     weights = np.array([read["weights"][name] for name in WEIGHTS], dtype=float)
     weights.flags.writeable = False
-    return Calibration(weights, *(read[one] for one in ("program", "result", "threshold", "families", "risk")))
+    return Calibration(weights, *(read[one] for one in ("program", "result", "threshold", "families", "risk", "goals")))
 
 
 def combine(features: Floats, weights: Floats) -> Floats:
@@ -174,7 +178,7 @@ MOST_REASONS = 6
 
 _DIGITS = 4
 
-ReasonKind = Literal["candidate", "label", "orientation", "outlier", "alarm"]
+ReasonKind = Literal["candidate", "label", "orientation", "outlier", "alarm", "goal"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +199,49 @@ class Reason:
         return {"kind": self.kind, "text": self.text, "hulls": list(self.hulls), "rule": self.rule}
 
 
+@dataclass(frozen=True, slots=True)
+class GoalStatus:
+    """What is known of a goal on the result of an asset, as that is now.
+
+    goal: its text; outcome: None where it was not tried; why, hulls: see `GoalResult`; before: its outcome before the
+    edit; accepted: whether a person accepted the result though it fails; picture: the file of one, where it fails.
+    """
+
+    name: str
+    goal: str
+    outcome: GoalOutcome | None = None
+    why: str = ""
+    hulls: tuple[str, ...] = ()
+    before: GoalOutcome | None = None
+    accepted: bool = False
+    picture: Path | None = None
+
+    @property
+    def fails(self) -> bool:
+        """Whether it failed or broke, and nobody accepted that."""
+        return self.outcome in ("failed", "broken") and not self.accepted
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it was not tried, or fails."""
+        return self.outcome is None or self.fails
+
+    def describe(self) -> str:
+        """Return how it stands, in words."""
+        if self.outcome is None:
+            return f"goal {self.name} was not tried (meshforge apply)"
+        words = {"failed": "fails", "broken": "could not be tried", "untried": "does not apply", "passed": "holds"}
+        text = f"goal {self.name} {words[self.outcome]}{f': {self.why}' if self.why else ''}"
+        return f"{text}; accepted all the same" if self.accepted else text
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as `status` says it in JSON."""
+        names = ("name", "goal", "before", "why", "hulls", "accepted")
+        found = {name: getattr(self, name) for name in names}
+        picture = str(self.picture) if self.picture else None
+        return {**found, "now": self.outcome, "hulls": list(self.hulls), "picture": picture}
+
+
 ResultStatusWord = Literal["needs review", "sure", "signed off", "excluded"]
 """Sure: sure enough to be signed off, once its output is up to date."""
 ResultState = ResultStatusWord | Literal["void", "unknown"]
@@ -207,7 +254,8 @@ class ResultStatus:
 
     probability: that its edit is right, in 0..1, None where that is not known; reasons: why it may be wrong, the
     weightiest first; state: whether it is signed off; by: by whom; void: what changed since it was; excluded: why it is
-    given up; found_since: what was found after it was signed off, which stays so until a person answers.
+    given up; found_since: what was found after it was signed off, which stays so until a person answers; goals: what is
+    known of them.
     """
 
     probability: float | None = None
@@ -217,6 +265,12 @@ class ResultStatus:
     void: tuple[str, ...] = ()
     excluded: ExclusionReason | None = None
     found_since: tuple[str, ...] = ()
+    goals: tuple[GoalStatus, ...] = ()
+
+    @property
+    def open_goals(self) -> tuple[GoalStatus, ...]:
+        """Those that fail or were not tried, and that nobody accepted."""
+        return tuple(goal for goal in self.goals if goal.is_open)
 
     @property
     def confidence(self) -> float:
@@ -241,6 +295,19 @@ class ResultStatus:
         reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]
         return replace(self, probability=probability, reasons=tuple(reasons))
 
+    def with_goals(self, goals: Sequence[GoalStatus]) -> Self:
+        """Return the same with what is known of goals: one that fails is a doubt, and those that hold speak for it."""
+        if not goals or self.excluded:
+            return self
+        weights, known, odds = read_calibration().goals, self.probability, 0.0
+        for goal in goals:
+            if goal.outcome == "passed" and goal.before:
+                odds += weights.get(goal.before, 0.0)
+        if known and odds and not any(reason.kind == "alarm" for reason in self.reasons):
+            known = 1 / (1 + (1 - known) / known * math.exp(-odds))
+        failing = [Reason("goal", one.describe(), one.hulls, share=1 - STANDS_OUT) for one in goals if one.fails]
+        return replace(self, probability=known, goals=tuple(goals)).with_reasons(failing)
+
     def describe(self) -> str:
         """Return how it stands in words: how sure its result is, and whether it is signed off, and by whom."""
         if self.state == "void":
@@ -252,19 +319,22 @@ class ResultStatus:
             return f"{share}signed off when its output is up to date (meshforge apply)"
         who = {"tool": " by MeshForge", "person": " by a person", None: ""}[self.by]
         since = f"; found since: {'; '.join(self.found_since)}" if self.found_since else ""
-        return f"{share}{self.state}{who}{since}"
+        goals = "".join(f"; {goal.describe()}" for goal in self.open_goals)
+        return f"{share}{self.state}{who}{since}{goals}"
 
     def to_json(self) -> dict[str, Any]:
         """Return how sure its edit is, as `status`, `apply`, `review` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, _DIGITS)
-        return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
+        goals = {"goals": [goal.to_json() for goal in self.goals]} if self.goals else {}
+        return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons], **goals}
 
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
     """A family as it stands. assets: by name, in the family's order; looked_at: those of which a person accepted the
     result, or said what it is; wrong: those of which they only said that it is wrong; excluded: those given up, those
-    that are not of the family too; questions: all that could be asked now, what is worth most first.
+    that are not of the family too; questions: all that could be asked now, what is worth most first; without_goals: the
+    assets as they would stand if there were no goals.
     """
 
     assets: Mapping[str, ResultStatus]
@@ -273,6 +343,7 @@ class Assessment:
     wrong: frozenset[str] = frozenset()
     excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
     questions: tuple[ReviewQuestion, ...] = ()
+    without_goals: Mapping[str, ResultStatus] = field(default_factory=dict)
 
     @property
     def question(self) -> ReviewQuestion | None:
@@ -297,6 +368,13 @@ class Assessment:
         return tuple(name for _, name in rows if name not in done)
 
     @property
+    def failures(self) -> Mapping[str, tuple[GoalStatus, ...]]:
+        """Goals that fail on results, and that nobody accepted, by asset; not of those called wrong or given up."""
+        rows = ((name, tuple(goal for goal in one.goals if goal.fails)) for name, one in self.assets.items())
+        away = {*self.excluded, *self.wrong}
+        return {name: goals for name, goals in rows if goals and name not in away}
+
+    @property
     def is_done(self) -> bool:
-        """Whether no asset needs review."""
-        return not self.need_review
+        """Whether no asset needs review, and no goal fails."""
+        return not self.need_review and not self.failures

@@ -56,7 +56,8 @@ class ReviewQuestion:
     """One question. kind: `label` is a candidate with a label that no demonstration shows, `selection` a likely mistake
     in what a rule was shown or answered to select; text: in plain words; seconds: of a person, by the keystroke-level
     model; gain: assets that an answer makes right, as far as can be expected; asset: where to look; hulls: those in
-    question; choices: the first one leaves things as they are; id: bound to all that it is about.
+    question; choices: the first one leaves things as they are; id: bound to all that it is about; goals: texts of those
+    that fail on a result, and do not count there once it is called right.
     """
 
     kind: QuestionKind
@@ -68,6 +69,7 @@ class ReviewQuestion:
     hulls: tuple[HullPlace, ...] = ()
     choices: tuple[ReviewChoice, ...] = ()
     id: str = ""
+    goals: tuple[str, ...] = ()
 
     @property
     def worth(self) -> float:
@@ -89,6 +91,7 @@ class ReviewQuestion:
             "rule": self.rule,
             "hulls": [{"asset": place.asset, "hull": place.hull} for place in self.hulls],
             "choices": [choice.to_json() for choice in self.choices],
+            **({"goals": list(self.goals)} if self.goals else {}),
         }
 
 
@@ -108,7 +111,7 @@ def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
     )
     hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in asked["hulls"])
     rest = {name: asked[name] for name in ("kind", "text", "seconds", "gain", "asset", "rule", "id")}
-    return ReviewQuestion(hulls=hulls, choices=choices, **rest)
+    return ReviewQuestion(hulls=hulls, choices=choices, goals=tuple(asked.get("goals", ())), **rest)
 
 
 def identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:

@@ -7,10 +7,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from meshforge.common import join_names
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
-from meshforge.signoff.assessment import THRESHOLD, Assessment, ResultStatus, ReviewState
+from meshforge.signoff.assessment import THRESHOLD, Assessment, GoalStatus, ResultStatus, ReviewState
 from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.groups import ask_clusters, ask_groups, ask_orientation
 from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
@@ -40,9 +41,11 @@ from meshforge.synthesis import (
 )
 
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
+_NO_GOALS: Mapping[str, Sequence[GoalStatus]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _LIKELY = 0.5  # a slip in what a person answered or accepted is asked about above this, unless a result is wrong
+_GOAL_GAIN = 0.5  # what a look is worth at a result that a person accepted, and on which a goal fails
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -52,22 +55,24 @@ def review_family(
     family: FamilyModel,
     threshold: float = THRESHOLD,
     alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
+    goals: Mapping[str, Sequence[GoalStatus]] = _NO_GOALS,
 ) -> Assessment:
     """Return how the family stands.
 
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
-    their order; alarms: sentences on results that stand out, by asset.
+    their order; alarms: sentences on results that stand out, by asset; goals: what is known of them, by asset.
     """
     run = _run_family(state, outcome, family, alarms) if isinstance(outcome, Found | Ambiguous) else None
     looked_at = _list_looked_at(state, run)
     suggested = outcome.suggested if outcome else None
     is_doubted = run and suggested and _sort(ask_orientation(suggested, state, 1.0), state)
     turned = {*suggested.differs_on} - looked_at if suggested and is_doubted else set()
-    assets = dict(judge_edits(state, outcome, run, turned))
-    found = Assessment(assets, threshold, looked_at, state.wrong, state.excluded)
+    bare = dict(judge_edits(state, outcome, run, turned))
+    assets = {name: one.with_goals(goals.get(name, ())) for name, one in bare.items()}
+    found = Assessment(assets, threshold, looked_at, state.wrong, state.excluded, without_goals=bare)
     if run is None:  # what was demonstrated is not what any program does
         questions = _sort(_questions_before(state, outcome, family), state)
-    elif found.need_review and not state.lost.keys() >= set(found.need_review):
+    elif (found.need_review or found.failures) and not state.lost.keys() >= {*found.need_review, *found.failures}:
         questions = _sort(_questions(run, found, suggested), state)
     else:
         looks = [*_ask_last_looks(run), *ask_clusters(run)]
@@ -228,7 +233,9 @@ def _gains_of(family: FamilyRun, splits: Sequence[CandidateSplit], looks: int = 
 
 def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
     correcting = price_demonstration(family.state.demos.values())
-    for name in (one for one in found.need_review if one in family.places):
+    failures, count = found.failures, len(found.assets)
+    often = f" It is one of {len(failures)} of {count} that fail a goal." if 2 * len(failures) > count > 2 else ""
+    for name in (one for one in {**dict.fromkeys(found.need_review), **failures} if one in family.places):
         uncertainty = 1 - found.assets[name].confidence
         place = family.places[name]
         run, trust = family.runs[place], family.evidence[place].labels ** _TRUST
@@ -241,6 +248,11 @@ def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestio
         if name in found.wrong and is_same:
             text = f"The result of {name} was called wrong: what is right there?"
             yield _ask_result(run, 1.0, YES_OR_NO + correcting, text, _GIVE_UP)
+        elif failing := failures.get(name):
+            text = (
+                f"On {name} {join_names([one.describe() for one in failing])}.{often} Is the result right all the same?"
+            )
+            yield _ask_result(run, max(gain, _GOAL_GAIN), seconds, text, goals=[one.goal for one in failing])
         else:
             yield _ask_result(run, gain, seconds)
 
@@ -271,7 +283,12 @@ JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *_E
 
 
 def _ask_result(
-    run: ProgramRun, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
+    run: ProgramRun,
+    gain: float,
+    seconds: float,
+    text: str = "",
+    choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES,
+    goals: Sequence[str] = (),
 ) -> ReviewQuestion:
     """Whether a result is right; where the program cannot run there is none that could be. What is right where it was
     called wrong is the same question, so that a reply which was given before is known."""
@@ -281,7 +298,8 @@ def _ask_result(
     draft = ReviewQuestion(
         "result", text, seconds, gain, run.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
     )
-    return replace(identify(draft, [f"{bits:x}" for bits in run.selections]), choices=choices)
+    bound = [*(f"{bits:x}" for bits in run.selections), *goals]
+    return replace(identify(draft, bound), choices=choices, goals=tuple(goals))
 
 
 def _ask_to_exclude(asset: str, why: str) -> ReviewQuestion:

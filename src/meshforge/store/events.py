@@ -181,7 +181,8 @@ class VerdictEvent(_Line):
     """What a person said of a result; verdict: None takes the last one back.
 
     output: the digest of the files that were looked at, None where there were none; seen: what the program did there,
-    where the result was looked at by itself; meant: what it should have done, where a person said so of a wrong result.
+    where the result was looked at by itself; meant: what it should have done, where a person said so of a wrong result;
+    goals: texts of those that fail on it, and that the person accepted all the same.
     """
 
     event: Literal["verdict"] = "verdict"
@@ -191,6 +192,7 @@ class VerdictEvent(_Line):
     output: str | None = None
     seen: tuple[RuleSelection, ...] = ()
     meant: tuple[RuleSelection, ...] = ()
+    goals: tuple[str, ...] = ()
 
 
 class LabelsEvent(_Line):

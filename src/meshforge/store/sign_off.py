@@ -85,6 +85,13 @@ class ConfidenceLine(JsonFile):
         reasons = tuple(signoff.Reason("alarm", text) for text in alarms)
         return self.model_copy(update={"reasons": (*reasons, *others), "is_outlier": True})
 
+    def with_goals(self, goals: Sequence[signoff.GoalStatus]) -> Self:
+        """Return the same with what is known of goals since."""
+        if not goals:
+            return self
+        status = signoff.ResultStatus(self.probability, self.reasons).with_goals(goals)
+        return self.model_copy(update={"probability": status.probability, "reasons": status.reasons})
+
 
 class AssessmentFile(JsonFile):
     """What was found last. threshold: the probability from which on an asset is signed off; inputs_digest: of what was
