@@ -142,7 +142,9 @@ def test_a_goal_that_fails_takes_sign_offs_back_until_a_person_answers(run: Run,
     said = run("status", "tables", "--signed-off")
     assert said.code == 1 and "goal grip was not tried (meshforge apply): table0/model.obj, table1" in said.out
     assert "Next: Try the goals, which were not tried on 3 assets" in said.out
-    said = run("apply", "tables")
+    said = run("apply", "tables", "--report", "report.html")
+    page = Path("report.html").read_text()
+    assert page.count("<figcaption>goal grip fails: part 1") == page.count("data:image/png") == 3
     assert said.code == 1 and "table2/model.obj is no longer signed off: goal grip fails: part 1: it is" in said.err
     by_person, held = ("signed off", "person"), ("needs review", None)
     assert standing(run) == {"table0": by_person, "table1": by_person, "table2": held}

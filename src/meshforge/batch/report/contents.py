@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -98,8 +98,9 @@ class ReportAsset:
 
     @property
     def reasons(self) -> list[str]:
-        """Why its edit may be wrong, a sentence each, but for alarms."""
-        return [one.text for one in (self.result_status.reasons if self.result_status else ()) if one.kind != "alarm"]
+        """Why its edit may be wrong, a sentence each, but for alarms and goals."""
+        reasons = self.result_status.reasons if self.result_status else ()
+        return [one.text for one in reasons if one.kind not in ("alarm", "goal")]
 
     @property
     def kinds(self) -> list[str]:
@@ -209,7 +210,8 @@ class PictureOptions:
 class AssetPictures:
     """Addresses `data:…` of an asset's pictures; after and changes are None where nothing changed.
 
-    has_blame: whether hulls that findings name stand out in them; checks: what pictures of checks show, and these.
+    has_blame: whether hulls that findings name stand out in them; checks, goals: what pictures of checks and of goals
+    that fail show, and these.
     """
 
     before: str
@@ -217,6 +219,7 @@ class AssetPictures:
     changes: str | None = None
     has_blame: bool = False
     checks: tuple[tuple[str, str], ...] = ()
+    goals: tuple[tuple[str, str], ...] = ()
 
 
 def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | None:
@@ -225,7 +228,7 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
     if before is None:
         return None
     color_by: ColorBy = "label" if options.by_label else "hull"
-    checks = _draw_checks(asset, after or before)
+    checks, goals = _draw_checks(asset, after or before), tuple(_read_goal_pictures(asset))
     if after is None or after is before or asset.status == "unchanged" or not (before.hulls or after.hulls):
         blamed = _find_hulls_to_blame(asset, before) if after is before else None
         image = render(
@@ -237,10 +240,10 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
             background=None,
             legend=False,
         )
-        return AssetPictures(_to_data_url(image), has_blame=blamed is not None, checks=checks)
+        return AssetPictures(_to_data_url(image), has_blame=blamed is not None, checks=checks, goals=goals)
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)
     changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
-    return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks)
+    return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks, goals=goals)
 
 
 def _find_hulls_to_blame(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[str] | None:
@@ -255,6 +258,14 @@ def _draw_checks(asset: ReportAsset, mesh: SymbolicMesh) -> tuple[tuple[str, str
         return ()
     drawn = draw_examination(mesh, asset.checked, CHECK_PICTURE_SIZE)
     return tuple((words, _to_data_url(image)) for _, words, image in drawn)
+
+
+def _read_goal_pictures(asset: ReportAsset) -> Iterator[tuple[str, str]]:
+    """What fails on an asset, and the address of its picture."""
+    for goal in asset.result_status.goals if asset.result_status else ():
+        if goal.picture and goal.picture.exists():
+            picture = base64.b64encode(goal.picture.read_bytes()).decode()
+            yield goal.describe(), f"data:image/png;base64,{picture}"
 
 
 def _to_data_url(image: Image) -> str:

@@ -57,6 +57,10 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
                 summary.add(outcome)
                 progress.add_line(_apply_line(outcome, notes))
                 session.note_output(outcome.asset)
+        if goals := project.read_goals():
+            with progress.stage(len(jobs), "trying goals") as advance:
+                run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=advance)
+                list(project.try_goals(goals, only=[job.id for job in jobs], execution=run))
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
