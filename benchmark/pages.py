@@ -72,6 +72,12 @@ PAGES = (
         ("numpy", "scipy", "coal", "mujoco"),
     ),
     Page(
+        "checks",
+        "# Checks and goals\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same.\n",
+        ("goals",),
+        ("numpy", "scipy", "mujoco"),
+    ),
+    Page(
         "labels",
         "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
         ("propagation", "confidence", "transfer", "labellers", "scale"),

@@ -90,11 +90,15 @@ class Task:
 
     def failure(self, sample: Sample, edited: EditResult) -> str | None:
         """Why an edit of a sample does not do, judged by the criterion; None where it does."""
+        return self.judge(sample, edited, self.criterion)
+
+    def judge(self, sample: Sample, edited: EditResult, checks: Sequence[Mapping[str, Any]]) -> str | None:
+        """Why an edit of a sample does not do, by some checks; None where it does."""
         if edited.mesh is None:
             return edited.error or "the program fails"
         truth = {hull.name: hull.annotation for hull in sample.mesh.hulls}
         mesh = upright(sample, _truly_labelled(edited, truth))
-        return judge(Case(mesh, sample.asset, _before(sample)), self.criterion)
+        return judge(Case(mesh, sample.asset, _before(sample)), checks)
 
 
 @lru_cache(maxsize=128)
