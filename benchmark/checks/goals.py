@@ -50,13 +50,13 @@ def measure(tell: Tell, quick: bool) -> Result:
         ),
         (Goal("goals that say what the criterion says, where they could be tried, %", "at least", 90.0, same),),
         (
-            "A criterion knows the true parts and where a thing is to lie. A goal has an extractor alone, and finds the "
+            "A criterion knows the true parts and where a thing is to lie. A goal has an extractor alone and finds the "
             "place on the asset before the edit. What is tried there is one implementation, in `checks/physics`: when "
             "it moved out of the benchmark, none of 10,741 verdicts on the same places changed.",
             f"{count} goals of {len(GOALS)} tasks, written from what tasks say before any was tried: "
             "`benchmark/checks/goals.toml`, which names the criteria that no goal says.",
-            "*Unedited* meshes are those before the reference. What makes the figure fall: places that are found "
-            "elsewhere than a person means, labels that miss a part, defaults that ask for more or less than the person.",
+            "*Unedited* meshes are those before the reference. What makes it fall: places that are found "
+            "elsewhere than a person means, labels that miss a part, defaults that ask for more or less than they do.",
         ),
         tuple(rows),
     )
