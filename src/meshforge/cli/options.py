@@ -204,12 +204,6 @@ class EngineMethod(StrEnum):
     HULL = "hull"
 
 
-def refuse_hull(method: EngineMethod | None, what: str) -> None:
-    """Raise UsageError where one convex hull is asked for of what is to be divided."""
-    if method is EngineMethod.HULL:
-        raise UsageError(f"--decompose hull divides nothing: it does not go with {what}", remedy="Try coacd or vhacd.")
-
-
 def parse_engine_settings(
     method: EngineMethod, given: list[str] | None, max_vertices: int | None = None
 ) -> DecomposeSettings:
