@@ -804,7 +804,7 @@ export interface DecomposeJob {
   kind: "decompose";
   assets: string[];
   method?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip.
@@ -1323,7 +1323,7 @@ export interface ProjectOfFolder {
   folder: string;
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
@@ -1332,7 +1332,7 @@ export interface ProjectOfUpload {
   kind: "upload";
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of a bundled family, whose files are written into its own folder.

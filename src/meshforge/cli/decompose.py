@@ -12,14 +12,11 @@ from meshforge.cli.console import fold_notes, progress
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, escape_name, pluralize
 
-_OF_POINTS = ("classes", "align")
-
 
 @dataclass(frozen=True, slots=True)
 class DecomposeArguments:
     """What is typed after `meshforge decompose`."""
 
-    context: typer.Context
     mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")]
     out: Annotated[
         Path | None,
@@ -31,21 +28,6 @@ class DecomposeArguments:
     option: options.EngineOptions = None
     max_vertices: options.MaxVertices = None
     by: options.By = "whole"
-    labels: Annotated[
-        Path | None,
-        typer.Option(
-            "--labels",
-            help="With --by labels: the file of segmented points, if not the one beside the mesh.",
-            show_default=False,
-        ),
-    ] = None
-    classes: Annotated[
-        str,
-        typer.Option(
-            "--classes", help="The names of classes 0, 1, ... of segmented points: a,b,c.", show_default=False
-        ),
-    ] = ""
-    align: options.Align = None
     hollow: options.Hollow = False
     timeout: options.Seconds = None
     cache: Annotated[bool, typer.Option("--cache/--no-cache", help="Keep results, and use kept ones.")] = True
@@ -56,8 +38,6 @@ class DecomposeArguments:
 def decompose(given: DecomposeArguments) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
     settings = options.parse_engine_settings(given.method, given.option, given.max_vertices)
-    if given.by != "labels":
-        options.refuse_options(given.context, ("labels", *_OF_POINTS), "--by labels")
     if given.out is None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE.")
     with progress(None, f"{given.method.value} on {given.mesh.name}") as shown:
@@ -65,7 +45,6 @@ def decompose(given: DecomposeArguments) -> None:
             given.mesh,
             settings,
             by=given.by,
-            labels=_segmentation_of(given),
             hollow=given.hollow,
             timeout=given.timeout,
             cache=given.cache,
@@ -75,12 +54,3 @@ def decompose(given: DecomposeArguments) -> None:
     for note in fold_notes((*(made.asset.notes if made.asset else ()), *saved.notes)):
         remark(f"note: {note}")
     remark(f"wrote {escape_name(str(saved.path))}: {pluralize(len(made.hulls), 'hull')}")
-
-
-def _segmentation_of(given: DecomposeArguments) -> formats.SegmentationFile | None:
-    """The file that says what the parts are; None where no parts by labels are asked for, or no file is beside the
-    mesh, which is an error then."""
-    beside = formats.points_beside(formats.labels_beside(given.mesh)) if given.by == "labels" else None
-    path = given.labels or beside
-    classes = tuple(options.split_words(given.classes))
-    return formats.SegmentationFile(path, classes, given.align or "check") if path else None

@@ -170,11 +170,11 @@ def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
 
 
 By = Annotated[
-    Literal["whole", "parts", "labels"],
+    Literal["whole", "parts"],
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials, or what the labels of points beside it (MESH.points.npz) say.",
+        "its groups, nodes and materials.",
     ),
 ]
 
