@@ -33,8 +33,7 @@ export type Event =
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest =
-  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -68,7 +67,6 @@ export interface Everything {
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
-  DownloadJob: DownloadJob;
   DropManualEdits: DropManualEdits;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
@@ -807,14 +805,6 @@ export interface DecomposeJob {
   by?: "whole" | "parts";
 }
 /**
- * Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip.
- */
-export interface DownloadJob {
-  kind: "download";
-  what: "results" | "report";
-  signed_only?: boolean;
-}
-/**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
  * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
@@ -1136,12 +1126,11 @@ export interface Reach {
  * Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
  * lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
  *
- * message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
+ * message: its result in a sentence; out: the folder that was written.
  */
 export interface Job {
   id: string;
-  kind:
-    "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "download";
+  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check";
   title: string;
   done: number;
   total: number;

@@ -29,7 +29,6 @@ __getattr__, __all__ = export_lazily(
             "RECORD_FILE list_preparation_writes read_preparation read_prepared read_steps record_digest "
             "write_preparation"
         ),
-        "outputs": "write_archive",
         "provenance": (
             "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "
             "software_version source_files stamp_path template_digests text_digest value_digest"

@@ -65,7 +65,6 @@ from meshforge.batch.preparation.storage import read_prepared as read_prepared
 from meshforge.batch.preparation.storage import read_steps as read_steps
 from meshforge.batch.preparation.storage import record_digest as record_digest
 from meshforge.batch.preparation.storage import write_preparation as write_preparation
-from meshforge.batch.outputs import write_archive as write_archive
 from meshforge.batch.provenance import OutputInputs as OutputInputs
 from meshforge.batch.provenance import Stamp as Stamp
 from meshforge.batch.provenance import asset_digests as asset_digests

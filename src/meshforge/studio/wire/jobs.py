@@ -5,9 +5,7 @@ from typing import Literal
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
-JobKind = Literal[
-    "read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "download"
-]
+JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check"]
 
 LabelEditKind = Literal["label-all", "label-vlm"]
 
@@ -25,7 +23,7 @@ class Job(Wire):
     """Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
     lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
 
-    message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
+    message: its result in a sentence; out: the folder that was written.
     """
 
     id: str
@@ -103,15 +101,7 @@ class CheckJob(Wire):
     kind: Literal["check"] = "check"
 
 
-class DownloadJob(Wire):
-    """Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip."""
-
-    kind: Literal["download"] = "download"
-    what: Literal["results", "report"]
-    signed_only: bool = True
-
-
-JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob
+JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob
 
 
 class AssetLabelUpdate(Wire):
