@@ -78,7 +78,6 @@ from meshforge.batch.provenance import stamp_path as stamp_path
 from meshforge.batch.provenance import template_digests as template_digests
 from meshforge.batch.provenance import text_digest as text_digest
 from meshforge.batch.provenance import value_digest as value_digest
-from meshforge.batch.report.contents import LabelStatus as LabelStatus
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
 from meshforge.batch.report.contents import ReportStatus as ReportStatus

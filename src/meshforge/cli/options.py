@@ -84,8 +84,6 @@ CollisionPlace = Annotated[
     ),
 ]
 
-NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
-
 AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
 
 Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
