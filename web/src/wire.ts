@@ -27,7 +27,6 @@ export type Event =
   | AssetsChanged
   | ProjectChanged
   | HistoryChanged
-  | LabelUpdateChanged
   | OutcomeChanged
   | ReachChanged
   | AssessmentChanged
@@ -49,7 +48,6 @@ export interface Everything {
   AskJob: AskJob;
   AssessmentChanged: AssessmentChanged;
   AssessmentView: AssessmentView;
-  AssetLabelUpdate: AssetLabelUpdate;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
   AssetsFound: AssetsFound;
@@ -97,8 +95,6 @@ export interface Everything {
   LabelHulls: LabelHulls;
   LabelJob: LabelJob;
   LabelSources: LabelSources;
-  LabelUpdate: LabelUpdate;
-  LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
   ManualEditView: ManualEditView;
   Mark: Mark;
@@ -556,16 +552,6 @@ export interface Reason {
   share: number;
 }
 /**
- * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
- * was: the label that each of the changed ones had.
- */
-export interface AssetLabelUpdate {
-  asset: string;
-  new: number[];
-  changed: number[];
-  was: string[];
-}
-/**
  * An asset as it is prepared, in the frame it comes in.
  *
  * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
@@ -903,7 +889,6 @@ export interface Hello {
   project: ProjectView;
   cards: Card[];
   history: HistoryState;
-  relabelled: LabelUpdate | null;
   program: ProgramView;
   language: LanguageView;
   outcome: OutcomeView | null;
@@ -1021,13 +1006,6 @@ export interface HistoryState {
   redo: string | null;
   undoable: number;
   redoable: number;
-}
-/**
- * What the last edit did, if it changed the labels of all assets. way: its kind.
- */
-export interface LabelUpdate {
-  way: "label-all" | "label-vlm";
-  assets: AssetLabelUpdate[];
 }
 /**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
@@ -1164,13 +1142,6 @@ export interface HistoryChanged {
   kind: "history";
   history: HistoryState;
   by: string | null;
-}
-/**
- * What the last edit did to all labels, sent after the cards; null as soon as there is another edit.
- */
-export interface LabelUpdateChanged {
-  kind: "relabelled";
-  relabelled: LabelUpdate | null;
 }
 /**
  * A learning run has started (`learning`), or its outcome is there.

@@ -29,7 +29,7 @@ from meshforge.studio.session.refresh import Refresher
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.transfers import Uploads
-from meshforge.studio.wire.events import HistoryChanged, LabelUpdateChanged, ProgramChanged
+from meshforge.studio.wire.events import HistoryChanged, ProgramChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -168,7 +168,6 @@ class Session:
     def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            self.pages.show(LabelUpdateChanged(relabelled=None))
             self.update({name for entry in entries for name in entry.names})
             self.pages.show(HistoryChanged(history=self.history.state, by=by))
 

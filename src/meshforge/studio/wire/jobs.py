@@ -1,4 +1,4 @@
-"""Jobs: requests, progress and outcome; what an edit of all labels did, and the model that can be asked."""
+"""Jobs: requests, progress and outcome; and the model that can be asked."""
 
 from typing import Literal
 
@@ -6,8 +6,6 @@ from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check"]
-
-LabelEditKind = Literal["label-all", "label-vlm"]
 
 
 class JobLine(Wire):
@@ -102,23 +100,6 @@ class CheckJob(Wire):
 
 
 JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob
-
-
-class AssetLabelUpdate(Wire):
-    """Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
-    was: the label that each of the changed ones had."""
-
-    asset: str
-    new: tuple[int, ...] = ()
-    changed: tuple[int, ...] = ()
-    was: tuple[str, ...] = ()
-
-
-class LabelUpdate(Wire):
-    """What the last edit did, if it changed the labels of all assets. way: its kind."""
-
-    way: LabelEditKind
-    assets: tuple[AssetLabelUpdate, ...]
 
 
 class Model(Wire):
