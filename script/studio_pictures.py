@@ -79,7 +79,7 @@ def _show_labels(page: Page, path: Path) -> None:
     """What the labels of one table gave on the others, at the hull that is least sure."""
     page.keyboard.press("Alt+1")
     page.keyboard.press("p")
-    page.get_by_text("Hulls labelled").first.wait_for()
+    page.get_by_text("All labels by source").first.wait_for()
     page.wait_for_timeout(5000)
     page.keyboard.press("n")
     page.wait_for_timeout(3000)

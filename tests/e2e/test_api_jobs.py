@@ -55,16 +55,18 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     studio.edit("review", ids=[THIRD], verdict="accepted")
     studio.cards(lambda cards: cards[THIRD]["review"] == "accepted" and cards[FIRST]["review"] == "wrong")
     job = run(studio, kind="export", folder="out/first")
-    assert job["message"] == "1 asset exported."
+    assert job["message"] == "1 asset exported, with meshforge-report.html."
     exported = home(studio) / "out" / "first"
     assert job["out"] == str(exported)
     outputs = tree(home(studio) / "edited")
     own = {name: data for name, data in tree(exported).items() if not name.startswith(".")}
+    report = own.pop("meshforge-report.html").decode()
+    assert all(asset in report for asset in (FIRST, THIRD)), "those that are wrong, too"
     assert own and own == {name: outputs[name] for name in own}
     assert load(exported / THIRD).hulls
-    assert run(studio, kind="export", folder="out/first", signed_only=False)["message"] == "2 assets exported."
+    assert run(studio, kind="export", folder="out/first", signed_only=False)["message"].startswith("2 assets ")
     assert (exported / FIRST).is_file()
-    assert run(studio, kind="export", folder="out/first")["message"] == "1 asset exported."
+    assert run(studio, kind="export", folder="out/first")["message"].startswith("1 asset ")
     assert not (exported / FIRST).exists()
 
 

@@ -114,7 +114,7 @@ def _label(person: Hand) -> None:
     person.press("Enter")
     person.sees("labels files beside")
     person.click("Label all hulls")
-    person.page.get_by_role("status", name="Hulls labelled", exact=True).wait_for()
+    person.sees("All labels by source")
     go_to(person, SECOND)
     click_row(person, MISLABELLED)
     person.press("2")

@@ -80,8 +80,6 @@ def test_a_crate_that_moves_is_one_body_of_two_shapes(tmp_path: Path) -> None:
     assert {geom.name for geom in after.geoms} == {"crate/floor", "crate/wall"}
     for one, other in zip(asset.geoms, after.geoms, strict=True):
         assert one.shape.volume == pytest.approx(other.shape.volume, rel=1e-5)
-    (weight,) = after.mechanism.inertials
-    assert weight.mass == pytest.approx(180)
 
 
 def test_what_fixed_joints_hold_is_part_of_the_body_above(tmp_path: Path) -> None:
@@ -95,11 +93,10 @@ def test_what_fixed_joints_hold_is_part_of_the_body_above(tmp_path: Path) -> Non
     assert bodies["door"].motion["mass"] == pytest.approx(weights["door"].mass + weights["handle"].mass)
     assert any("fixed joints hold handle to door" in note for note in notes)
     assert any("HingeJoint3D" in note and "hinge" in note for note in notes)
-    whole = next(i for i in read(path).mechanism.inertials if i.body == "door")
-    centre = (weights["door"].mass * weights["door"].centre + weights["handle"].mass * weights["handle"].centre) / (
-        whole.mass
-    )
-    np.testing.assert_allclose(whole.centre, centre, atol=1e-6)  # an asset of memory is not turned
+    found = read(path).body_poses["door"].apply(np.array([bodies["door"].motion["centerOfMass"]]))[0]
+    centre = weights["door"].mass * weights["door"].centre + weights["handle"].mass * weights["handle"].centre
+    centre /= weights["door"].mass + weights["handle"].mass
+    np.testing.assert_allclose(found, centre, atol=1e-6)  # an asset of memory is not turned
 
 
 def test_moments_about_the_axes_of_the_body_are_kept(tmp_path: Path) -> None:

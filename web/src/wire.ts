@@ -27,14 +27,12 @@ export type Event =
   | AssetsChanged
   | ProjectChanged
   | HistoryChanged
-  | LabelUpdateChanged
   | OutcomeChanged
   | ReachChanged
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest =
-  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -50,7 +48,6 @@ export interface Everything {
   AskJob: AskJob;
   AssessmentChanged: AssessmentChanged;
   AssessmentView: AssessmentView;
-  AssetLabelUpdate: AssetLabelUpdate;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
   AssetsFound: AssetsFound;
@@ -68,7 +65,6 @@ export interface Everything {
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
-  DownloadJob: DownloadJob;
   DropManualEdits: DropManualEdits;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
@@ -99,8 +95,6 @@ export interface Everything {
   LabelHulls: LabelHulls;
   LabelJob: LabelJob;
   LabelSources: LabelSources;
-  LabelUpdate: LabelUpdate;
-  LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
   ManualEditView: ManualEditView;
   Mark: Mark;
@@ -558,16 +552,6 @@ export interface Reason {
   share: number;
 }
 /**
- * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
- * was: the label that each of the changed ones had.
- */
-export interface AssetLabelUpdate {
-  asset: string;
-  new: number[];
-  changed: number[];
-  was: string[];
-}
-/**
  * An asset as it is prepared, in the frame it comes in.
  *
  * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
@@ -804,15 +788,7 @@ export interface DecomposeJob {
   kind: "decompose";
   assets: string[];
   method?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
-}
-/**
- * Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip.
- */
-export interface DownloadJob {
-  kind: "download";
-  what: "results" | "report";
-  signed_only?: boolean;
+  by?: "whole" | "parts";
 }
 /**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
@@ -913,7 +889,6 @@ export interface Hello {
   project: ProjectView;
   cards: Card[];
   history: HistoryState;
-  relabelled: LabelUpdate | null;
   program: ProgramView;
   language: LanguageView;
   outcome: OutcomeView | null;
@@ -1033,13 +1008,6 @@ export interface HistoryState {
   redoable: number;
 }
 /**
- * What the last edit did, if it changed the labels of all assets. way: its kind.
- */
-export interface LabelUpdate {
-  way: "label-all" | "label-vlm";
-  assets: AssetLabelUpdate[];
-}
-/**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
  * version: to be sent back with an edit of the text; error: why the file does not parse.
  */
@@ -1136,12 +1104,11 @@ export interface Reach {
  * Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
  * lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
  *
- * message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
+ * message: its result in a sentence; out: the folder that was written.
  */
 export interface Job {
   id: string;
-  kind:
-    "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "download";
+  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check";
   title: string;
   done: number;
   total: number;
@@ -1175,13 +1142,6 @@ export interface HistoryChanged {
   kind: "history";
   history: HistoryState;
   by: string | null;
-}
-/**
- * What the last edit did to all labels, sent after the cards; null as soon as there is another edit.
- */
-export interface LabelUpdateChanged {
-  kind: "relabelled";
-  relabelled: LabelUpdate | null;
 }
 /**
  * A learning run has started (`learning`), or its outcome is there.
@@ -1323,7 +1283,7 @@ export interface ProjectOfFolder {
   folder: string;
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
@@ -1332,7 +1292,7 @@ export interface ProjectOfUpload {
   kind: "upload";
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of a bundled family, whose files are written into its own folder.

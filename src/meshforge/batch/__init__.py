@@ -29,12 +29,11 @@ __getattr__, __all__ = export_lazily(
             "RECORD_FILE list_preparation_writes read_preparation read_prepared read_steps record_digest "
             "write_preparation"
         ),
-        "outputs": "write_archive",
         "provenance": (
             "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
-        "report.contents": "LabelStatus MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
+        "report.contents": "MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",
         "workers": (

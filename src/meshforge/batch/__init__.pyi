@@ -66,7 +66,6 @@ from meshforge.batch.preparation.storage import read_prepared as read_prepared
 from meshforge.batch.preparation.storage import read_steps as read_steps
 from meshforge.batch.preparation.storage import record_digest as record_digest
 from meshforge.batch.preparation.storage import write_preparation as write_preparation
-from meshforge.batch.outputs import write_archive as write_archive
 from meshforge.batch.provenance import OutputInputs as OutputInputs
 from meshforge.batch.provenance import Stamp as Stamp
 from meshforge.batch.provenance import asset_digests as asset_digests
@@ -80,7 +79,6 @@ from meshforge.batch.provenance import stamp_path as stamp_path
 from meshforge.batch.provenance import template_digests as template_digests
 from meshforge.batch.provenance import text_digest as text_digest
 from meshforge.batch.provenance import value_digest as value_digest
-from meshforge.batch.report.contents import LabelStatus as LabelStatus
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
 from meshforge.batch.report.contents import ReportStatus as ReportStatus

@@ -1,5 +1,5 @@
 """Outputs: drafts, written aside and read back, then put in place one asset after the other, each file by a rename,
-and no file of anyone else's harmed; and all of them as one zip file."""
+and no file of anyone else's harmed."""
 
 import errno
 import os
@@ -9,20 +9,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, raise_if_stopped
 from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest, join_names
 from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
-_NO_DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip can hold
-_CHUNK = 1 << 20
-_UNIX, _PLAIN_FILE = 3, 0o100644
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
 """What there is in the folder of a draft."""
 
@@ -267,25 +262,3 @@ def _remove_empty_folders(folder: Path, root: Path) -> None:
     while folder != root and not any(folder.iterdir()):
         folder.rmdir()
         folder = folder.parent
-
-
-def write_archive(
-    path: Path, folder: Path, names: Iterable[str], comment: str = "", execution: ExecutionOptions = EXECUTION_DEFAULTS
-) -> None:
-    """Write files of a folder into a zip file, in order of their names, and never a whole one in memory.
-
-    The same files make the same bytes: dates and rights are left out. names: paths in the folder, with `/`; comment: of
-    the zip file; execution: its `progress` is called for each file. Raises StoppedError where its `stop` says so.
-    """
-    with ZipFile(path, "w", ZIP_DEFLATED) as archive:
-        archive.comment = comment.encode()[:65535]
-        for name in sorted(set(names)):
-            entry = ZipInfo(name, _NO_DATE)
-            entry.compress_type, entry.create_system, entry.external_attr = ZIP_DEFLATED, _UNIX, _PLAIN_FILE << 16
-            entry.file_size = (folder / name).stat().st_size  # decides how large a file can become
-            with (folder / name).open("rb") as source, archive.open(entry, "w") as target:
-                while chunk := source.read(_CHUNK):
-                    target.write(chunk)
-                    raise_if_stopped(execution.stop)
-            if execution.progress:
-                execution.progress()

@@ -36,7 +36,7 @@ def apply(given: ApplyArguments) -> None:
     if measures and not given.report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:
-        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
+        raise UsageError("with --dry-run there is nothing to show", remedy="Leave out --report.")
     with ExitStack() as stack:
         work = work_of_project(given, stack) if given.program.is_dir() else work_of_program(given)
         raise typer.Exit(_run(given, work, measures))

@@ -139,7 +139,6 @@ class LabelArguments:
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost.")
     ] = False
-    report: options.ReportPath = None
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
@@ -211,8 +210,6 @@ def label(given: LabelArguments) -> None:
                 raise UsageError(f"{option} says nothing on labels by hand", remedy="Leave it out, or ASSET.")
         label_by_hand(project, given.asset, given.hulls or (), words, json=given.json)
         return
-    if given.report and given.dry_run:
-        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     labeler, execution = given.to_labeler(project), given.execution.to_options()
     if given.dry_run and isinstance(labeler, VlmLabeler):
         print_forecast(project, labeler, words, execution, json=given.json)
@@ -222,7 +219,7 @@ def label(given: LabelArguments) -> None:
     else:
         if words is not None:
             project.set_vocabulary(words)
-        printer = LabelPrinter(project, labeler, given.report, json=given.json)
+        printer = LabelPrinter(project, json=given.json)
         if isinstance(labeler, VlmLabeler):
             label_with_vlm(project, labeler, execution, printer)
         else:

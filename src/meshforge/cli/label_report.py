@@ -1,50 +1,38 @@
-"""What `meshforge label` reports: a line for each asset, the summary of a project's labels, the page of `--report`; how
-labels were replaced, and what a dry run would take."""
+"""What `meshforge label` reports: a line for each asset, the summary of a project's labels; how labels were replaced,
+and what a dry run would take."""
 
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import asdict
-from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import typer
 
-from meshforge import batch
 from meshforge.cli.console import print_table
-from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.labels import LabelChange, Labeler, LabelOutcome, LabelResult, Proposal, Proposals, Tally
 from meshforge.project import SOURCE_WORDS, Project
 
-_DOUBTFUL = "Doubtful assets have hulls without a label, or with an unsure one."
 _MAX_NAMES = 8  # hulls without a label in a row
 _FEW_NAMES = 3  # of hulls whose names say a label
 _MAX_LINES = 20  # problems of one asset, and pairs of labels, that are shown
-_RANKS: tuple[batch.LabelStatus, ...] = ("problems", "doubtful", "labelled")
 
 
 class LabelPrinter:
     """Prints what became of each asset, and how many labels there are in the end.
 
-    page: the report that is to be written, too. failed: whether any labels could not be taken.
+    failed: whether any labels could not be taken.
     """
 
-    def __init__(self, project: Project, labeler: Labeler, page: Path | None, *, json: bool) -> None:
+    def __init__(self, project: Project, *, json: bool) -> None:
         self.json = json
         self.failed = False
-        self._project, self._page = project, page
-        about = labeler.about or f"labels by the plug-in {labeler.name}"
-        self._about = [f"{about[0].upper()}{about[1:]}."]
-        self._outcomes: dict[str, LabelOutcome] = {}
-        self._started = perf_counter()
+        self._project = project
 
     def print(self, outcome: LabelOutcome) -> None:
         """Print what became of an asset."""
         self.failed |= bool(outcome.problems)
-        if self._page:
-            self._outcomes[outcome.asset] = outcome
         if self.json:
             print_json(asdict(outcome), compact=True)
             return
@@ -54,70 +42,13 @@ class LabelPrinter:
         for note in _describe_open(outcome):
             typer.echo(f"    {note}")
 
-    def add_remark(self, text: str) -> None:
-        """Add a sentence about the whole run to the page."""
-        self._about.append(text)
-
     def summarize(self) -> None:
-        """Print how many labels there are, and write the page."""
+        """Print how many labels there are."""
         tally = self._project.tally_labels()
         if self.json:
             print_json({"labels": asdict(tally)}, compact=True)
         else:
             _print_tally(tally)
-        if self._page:
-            self._write_page(self._page, tally)
-
-    def _write_page(self, path: Path, tally: Tally) -> None:
-        """Write the page; of very many assets it shows some, those with problems first, then those most in doubt."""
-        project, doubtful = self._project, dict(tally.doubtful)
-        problems = dict(tally.unreadable)
-        problems |= {asset: _join_problems(outcome) for asset, outcome in self._outcomes.items() if outcome.problems}
-        status: dict[str, batch.LabelStatus] = {
-            asset: "problems" if asset in problems else "doubtful" if asset in doubtful else "labelled"
-            for asset in project.assets()
-        }
-        order = sorted(status, key=lambda asset: (_RANKS.index(status[asset]), -doubtful.get(asset, 0)))
-        shown = order[: batch.MOST_PICTURED]
-        assets = [
-            batch.ReportAsset(
-                asset,
-                mesh,
-                mesh,
-                (),
-                status[asset],
-                problems.get(asset),
-                notes=tuple(self._describe_asset(asset, doubtful.get(asset, 0))) if mesh else (),
-            )
-            for asset, mesh in zip(shown, batch.read_again(project.readers(shown)), strict=True)
-        ]
-        header = batch.ReportHeader(
-            f"Labels of {project.settings.name}",
-            " ".join([*self._about, *([_DOUBTFUL] if doubtful else [])]),
-            perf_counter() - self._started,
-            self._count_figures(status, tally),
-        )
-        write_report_page(path, header, assets, options=batch.ReportOptions(vocabulary=project.vocabulary))
-
-    def _count_figures(self, status: dict[str, batch.LabelStatus], tally: Tally) -> batch.RunFigures:
-        outcomes = self._outcomes.values()
-        numbers = {
-            "hulls": tally.hulls,
-            "labels taken": sum(outcome.taken for outcome in outcomes),
-            "kept as people gave them": sum(outcome.kept for outcome in outcomes),
-            "unsure": sum(share.unsure for share in tally.shares),
-            "without a label": tally.unlabelled,
-        }
-        more = {name: (f"{n:,}", None) for name, n in numbers.items() if n or name in ("hulls", "labels taken")}
-        return batch.RunFigures(Counter(status.values()), more, "those with problems or labels in doubt")
-
-    def _describe_asset(self, asset: str, doubtful: int) -> Iterator[str]:
-        if outcome := self._outcomes.get(asset):
-            yield _describe_outcome(outcome)
-            yield from _describe_open(outcome)
-        else:
-            more = f", {pluralize(doubtful, 'hull')} without a label or unsure" if doubtful else ""
-            yield f"given no labels this time{more}"
 
 
 def _print_tally(tally: Tally) -> None:
@@ -128,11 +59,6 @@ def _print_tally(tally: Tally) -> None:
     if found := tally.describe_contradictions():
         typer.echo(f"\n{escape_name(found)}")
     typer.echo()
-
-
-def _join_problems(outcome: LabelOutcome) -> str:
-    more = len(outcome.problems) - _MAX_LINES
-    return "\n".join([*outcome.problems[:_MAX_LINES], *([f"and {more:,} more"] if more > 0 else [])])
 
 
 def _describe_outcome(outcome: LabelOutcome) -> str:

@@ -31,11 +31,7 @@ def label_with_vlm(
     with catch_interrupt() as stop:
         announced = _announce_stop(stop, "stopping: waiting for the answers that are under way")
         project.label(labeler, execution=replace(execution, stop=announced), stage=progress, report=printer.print)
-    ended = labeler.result.ended
-    if ended:
-        printer.failed = True
-        why = ". ".join(line.strip(" .") for line in ended.splitlines())
-        printer.add_remark(f"The asking ended early: {why}.")
+    printer.failed |= bool(labeler.result.ended)
     printer.summarize()
     _print_end(project, labeler, json=printer.json)
 

@@ -84,8 +84,6 @@ CollisionPlace = Annotated[
     ),
 ]
 
-NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
-
 AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
 
 Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
@@ -170,11 +168,11 @@ def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
 
 
 By = Annotated[
-    Literal["whole", "parts", "labels"],
+    Literal["whole", "parts"],
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials, or what the labels of points beside it (MESH.points.npz) say.",
+        "its groups, nodes and materials.",
     ),
 ]
 
@@ -202,12 +200,6 @@ class EngineMethod(StrEnum):
     COACD = "coacd"
     VHACD = "vhacd"
     HULL = "hull"
-
-
-def refuse_hull(method: EngineMethod | None, what: str) -> None:
-    """Raise UsageError where one convex hull is asked for of what is to be divided."""
-    if method is EngineMethod.HULL:
-        raise UsageError(f"--decompose hull divides nothing: it does not go with {what}", remedy="Try coacd or vhacd.")
 
 
 def parse_engine_settings(

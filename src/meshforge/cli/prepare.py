@@ -127,7 +127,8 @@ def _rebuild_spanning(project: Project, given: PrepareArguments) -> int:
     """Rebuild bodies of which a hull spans parts, and print what became of each asset; the exit code."""
     this = "--rebuild-spanning"
     options.refuse_with(given.context, ("option", "max_vertices", "again", "hollow", "by"), this)
-    options.refuse_hull(given.method, this)
+    if given.method is options.EngineMethod.HULL:
+        raise UsageError(f"--decompose hull divides nothing: it does not go with {this}", remedy="Try coacd or vhacd.")
     results = project.rebuild_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         RebuildSettings(

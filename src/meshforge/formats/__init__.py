@@ -8,7 +8,7 @@ __getattr__, __all__ = export_lazily(
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
         "engine_names": "EngineName MarkName",
-        "mesh_input": "DecomposeBy decompose from_trimesh label_surface read_surface",
+        "mesh_input": "DecomposeBy decompose from_trimesh read_surface",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
         "mjcf.compiler": "MujocoLoad try_in_mujoco",
@@ -20,9 +20,7 @@ __getattr__, __all__ = export_lazily(
             "format_with_names is_asset is_description list_formats list_marked_formats notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
-        "segmentation": (
-            "POINTS_SUFFIXES AlignMode SegmentationFile align_points points_beside read_parts read_segmentation"
-        ),
+        "segmentation": "POINTS_SUFFIXES AlignMode align_points points_beside read_segmentation",
         "visuals": "VisualSurfaces",
     },
 )

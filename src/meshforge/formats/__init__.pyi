@@ -16,7 +16,6 @@ from meshforge.formats.engine_names import MarkName as MarkName
 from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
 from meshforge.formats.mesh_input import decompose as decompose
 from meshforge.formats.mesh_input import from_trimesh as from_trimesh
-from meshforge.formats.mesh_input import label_surface as label_surface
 from meshforge.formats.mesh_input import read_surface as read_surface
 from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
@@ -49,9 +48,7 @@ from meshforge.formats.registry import read as read
 from meshforge.formats.registry import resolve_asset_path as resolve_asset_path
 from meshforge.formats.segmentation import POINTS_SUFFIXES as POINTS_SUFFIXES
 from meshforge.formats.segmentation import AlignMode as AlignMode
-from meshforge.formats.segmentation import SegmentationFile as SegmentationFile
 from meshforge.formats.segmentation import align_points as align_points
 from meshforge.formats.segmentation import points_beside as points_beside
-from meshforge.formats.segmentation import read_parts as read_parts
 from meshforge.formats.segmentation import read_segmentation as read_segmentation
 from meshforge.formats.visuals import VisualSurfaces as VisualSurfaces

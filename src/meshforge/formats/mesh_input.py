@@ -3,7 +3,6 @@
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
@@ -11,19 +10,18 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.common import UsageError, join_names
-from meshforge.formats import mesh_reader, registry
-from meshforge.formats.assets_with_labels import label_hulls, labels_beside
+from meshforge.formats import mesh_reader
+from meshforge.formats.assets_with_labels import label_hulls
 from meshforge.formats.meshfile import surface as meshfile
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.formats.plain.base import build_asset
-from meshforge.formats.segmentation import POINTS_MARK, SegmentationFile, points_beside, read_parts
 from meshforge.symbolic import Asset, Body, Document, Geom, Label, Surface, SymbolicMesh, unique_names
 
 WHERE = "trimesh"
 _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
 
-DecomposeBy = Literal["whole", "parts", "labels"]
-"""Whether a surface is decomposed at once, or each part by itself: as its file names them, or segmented points say."""
+DecomposeBy = Literal["whole", "parts"]
+"""Whether a surface is decomposed at once, or each part that its file names by itself."""
 
 
 @runtime_checkable
@@ -102,7 +100,6 @@ def decompose(
     settings: geometry.DecomposeSettings | None = None,
     *,
     by: DecomposeBy = "whole",
-    labels: SegmentationFile | None = None,
     hollow: bool = False,
     timeout: float | None = None,
     cache: bool = True,
@@ -112,20 +109,17 @@ def decompose(
 
     mesh: a mesh file (OBJ, STL, PLY, DAE, GLB), or a mesh or scene of trimesh. settings: `CoacdSettings` or
     `VhacdSettings`, by default CoACD's own; by: `parts` decomposes each group, node and material by itself, so that no
-    hull crosses from one to another, `labels` each connected patch of a class of segmented points; labels:
-    their file, None for the one beside the mesh (`mug.points.npz`); hollow: leave planar holes open, so that shells of
+    hull crosses from one to another; hollow: leave planar holes open, so that shells of
     one sheet are not filled; timeout [s]; cache: keep results, and use kept ones; progress: called with what the engine
     is at. The hulls are called `hull_0` and so on, or by their parts, `handle_0`, of one body; `.asset.notes` says what
     is to be known about them.
-    Raises AssetError: a file cannot be read, or labels do not fit the mesh; GeometryError: it cannot be decomposed, or
-    the engine took too long; UsageError: no such `by`, or no labels.
+    Raises AssetError: a file cannot be read; GeometryError: it cannot be decomposed, or the engine took too long;
+    UsageError: no such `by`.
     """
     if by not in get_args(DecomposeBy):
         raise UsageError(f"{by!r} is none of {', '.join(get_args(DecomposeBy))}", where="by")
     path, surface = read_surface(mesh)
     notes: list[str] = []
-    if by == "labels":
-        surface = label_surface(path, surface, labels, notes.append)
     engine, known = settings or geometry.CoacdSettings(), surface.parts
     folder = geometry.cache_folder() if cache else None
     control = geometry.EngineControl(progress, timeout=timeout)
@@ -163,24 +157,6 @@ def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Su
     return path, Surface(vertices, faces, parts=meshfile.parts_of_surfaces(surfaces))
 
 
-def label_surface(
-    path: Path, surface: Surface, labels: SegmentationFile | None, note: Callable[[str], None]
-) -> Surface:
-    """Return the surface of a mesh file with its parts by segmented points, of the file beside it when None.
-
-    Raises UsageError where there is none, AssetError where they do not fit the surface.
-    """
-    beside = points_beside(labels_beside(path))
-    file = labels or (SegmentationFile(beside) if beside else None)
-    if file is None:
-        name = f"{path.stem}{POINTS_MARK}.npz"
-        remedy = f"Put them beside it, in {name} (or .ply), or name their file: --labels FILE."
-        raise UsageError("no labels of points lie beside it", where=str(path), remedy=remedy)
-    up = registry.format_of(path).up if path.is_file() else None
-    (parts,) = read_parts([(surface.vertices, surface.faces)], file, up, note)
-    return replace(surface, parts=parts)
-
-
 def name_hulls(parts: Sequence[str]) -> list[str]:
     """Return the names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
     return unique_names(_number([meshfile.plain_part_name(part) for part in parts]))
@@ -198,11 +174,9 @@ def _number(bases: Sequence[str]) -> list[str]:
 
 
 def _describe_parts(known: geometry.SurfaceParts | None, by: DecomposeBy) -> list[str]:
-    names = list(dict.fromkeys(known.names[k] for k in known.numbers)) if known else []
     if by == "parts":
         return ["no parts are known, by groups, nodes or materials: decomposed as a whole"]
-    if by == "labels":
-        return [f"its labels say one part only ({join_names(names)}): decomposed as a whole"]
     if known and known.is_divided:
+        names = list(dict.fromkeys(known.names[k] for k in known.numbers))
         return [f"a hull may hold several of its parts ({join_names(names, 3)}); --by parts keeps them apart"]
     return []

@@ -1,9 +1,8 @@
-"""Points with a class each, as segmentations (Find3D) and datasets (PartNet) have them in files beside an asset; and
-the parts of a surface by them: each connected patch of triangles of a class."""
+"""Points with a class each, as segmentations (Find3D) and datasets (PartNet) have them in files beside an asset."""
 
 import warnings
 import zipfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -12,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError, pluralize
-from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, sample_surface, separate_parts
+from meshforge.geometry import Aabb, Floats, Ints
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
 """The suffixes of segmented points; the last, which other segmentations write, is found so that it is refused."""
@@ -148,98 +147,6 @@ AlignMode = Literal["check", "box", "off"]
 the boxes fit, or as they are in any case."""
 _TO_Z = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # points as rows, Y up, to those with Z up
 _SLACK = 0.05  # of the diagonal of an asset: how far its box and that of its points may be apart at any side
-
-
-REST = "rest"
-"""The name of the part of all that has no class."""
-_COUNT = 50_000  # places on the surface, spread evenly
-_VOTES = 5  # points, the nearest, that say what a place is: a tenth of them may be wrong
-_NEAR = 0.02, 0.1  # of the diagonal: what is farther from all points has no class; the second where these are few
-_SPACES = 3.0  # mean distances of points that count as near
-_LEAST = 0.5  # of the surface that is near points, and of points that are near the surface
-_APART = "It may be turned, or of another asset. If it is right, say --align off."
-_MIDDLE = 1e-3  # of a place: what the middle of a triangle counts beside the places on it
-_REPORTED = 0.02  # of the surface: what is as good as told to be of another part, or of none
-
-
-@dataclass(frozen=True, slots=True)
-class SegmentationFile:
-    """A file of segmented points. classes: the names of classes 0, 1, ..., none where the file says them."""
-
-    path: Path
-    classes: tuple[str, ...] = ()
-    align: AlignMode = "check"
-
-
-def read_parts(
-    surfaces: Sequence[tuple[Floats, Ints]],
-    file: SegmentationFile,
-    up: Up | None = None,
-    note: Callable[[str], None] = lambda _: None,
-    beside: Sequence[Aabb] = (),
-) -> list[SurfaceParts]:
-    """Return the parts of surfaces, vertices (n, 3) [m] and faces (m, 3) each, by a file about all of them together.
-
-    Each connected patch of a class is a part; what has no class, or is far from all points, is `rest`. up: the axis
-    that the format of the surfaces says points up; note: called with what a user should know; beside: boxes of more
-    that the points may be of, besides the surfaces, none where they are of these alone.
-    Raises AssetError: the file cannot be read, or does not lie where the surfaces do.
-    """
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in surfaces)])
-    vertices = np.concatenate([vertices for vertices, _ in surfaces])
-    faces = np.concatenate([own + start for (_, own), start in zip(surfaces, starts, strict=False)])
-    box, found, where = Aabb.of_points(vertices[faces].reshape(-1, 3)), read_segmentation(file.path), str(file.path)
-    points = align_points(found.points, [box, *beside], file.align, where, up)
-    order = np.lexsort((found.classes, *points.T))  # the order in the file says nothing
-    labelled = points[order], found.classes[order]
-    kinds, notes = _find_classes(labelled, vertices, faces, file.align, where, is_part=bool(beside))
-    for text in notes:
-        note(text)
-    known, numbers = np.unique(kinds, return_inverse=True)
-    names = found.class_names(file.classes)
-    called = [REST if k < 0 else names.get(k) or f"part_{k}" for k in known.tolist()]
-    parts = separate_parts(vertices, faces, SurfaceParts(numbers.reshape(-1), tuple(called)))
-    ends = np.cumsum([len(own) for _, own in surfaces])
-    return [parts.select(np.arange(end - len(own), end)) for (_, own), end in zip(surfaces, ends, strict=True)]
-
-
-def _find_classes(
-    labelled: tuple[Floats, Ints], vertices: Floats, faces: Ints, align: AlignMode, where: str, *, is_part: bool
-) -> tuple[Ints, list[str]]:
-    """The class of each of faces (m, 3), -1 for none, and sentences on what is not as clear as it could be.
-
-    said: points (n, 3) with their classes (n,); is_part: the points may be of more than these faces. Raises AssetError
-    where they are checked, and points and surface lie mostly apart.
-    """
-    from scipy.spatial import cKDTree  # lazy: slow to import, only segmentations need it
-
-    (points, classes), corners = labelled, vertices[faces]
-    even, of_even = sample_surface(vertices, faces, _COUNT)
-    places = np.concatenate([even, corners.mean(axis=1)])  # the middles: no place may be on a small triangle
-    face = np.concatenate([of_even, np.arange(len(faces))])
-    weights = np.repeat([1.0, _MIDDLE], [len(even), len(faces)])
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    space = _SPACES * np.sqrt(np.linalg.norm(normals, axis=1).sum() / 2 / len(points))
-    diagonal = Aabb.of_points(corners.reshape(-1, 3)).diagonal
-    near = float(np.clip(space, *np.multiply(_NEAR, diagonal)))
-    distances, nearest = cKDTree(points).query(places, k=np.arange(1, min(_VOTES, len(points)) + 1))
-    gaps, votes = np.asarray(distances)[:, 0], classes[nearest]
-    support = (votes[:, :, None] == votes[:, None, :]).sum(axis=2)
-    kinds = np.where(gaps > near, -1, np.maximum(votes[np.arange(len(votes)), support.argmax(axis=1)], -1))
-    bare = float((gaps[: len(even)] > near).mean())
-    if align != "off" and 1 - bare < _LEAST:
-        raise AssetError(f"only {1 - bare:.0%} of the surface has labelled points near it", where=where, remedy=_APART)
-    on = float(np.mean(np.asarray(cKDTree(even).query(points)[0]) <= _NEAR[0] * diagonal))
-    if align != "off" and not is_part and on < _LEAST:
-        raise AssetError(f"only {on:.0%} of its points are near the surface", where=where, remedy=_APART)
-    pairs, at = np.unique(np.column_stack([face, kinds]), axis=0, return_inverse=True)
-    sizes = np.bincount(at.reshape(-1), weights)
-    order = np.lexsort((pairs[:, 1], -sizes, pairs[:, 0]))
-    firsts = order[np.unique(pairs[order, 0], return_index=True)[1]]
-    other = 1 - float(sizes[firsts].sum() / weights.sum())
-    notes = [f"{other:.0%} of the surface is in triangles that are mostly of another part, and goes with it"]
-    notes += [f"{bare:.0%} of the surface is far from all labelled points, so it is a part by itself, {REST}"]
-    return pairs[firsts, 1], [text for text, share in zip(notes, (other, bare), strict=True) if share >= _REPORTED]
 
 
 def align_points(points: Floats, boxes: Sequence[Aabb], align: AlignMode, where: str, up: Up | None = None) -> Floats:

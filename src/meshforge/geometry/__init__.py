@@ -11,7 +11,7 @@ __getattr__, __all__ = export_lazily(
         "decomposition.by_parts": "decompose_by_parts",
         "decomposition.engines": "CoacdSettings DecomposeSettings EngineControl HullSettings VhacdSettings",
         "decomposition.fine": "FINE_SETTINGS PieceEngine decompose_finely",
-        "decomposition.parts": "SurfaceParts separate_parts stack_parts",
+        "decomposition.parts": "SurfaceParts stack_parts",
         "decomposition.regions": "FinePiece",
         "decomposition.run": "cache_folder decompose",
         "decomposition.triangles": "is_line is_sheet sheet_hulls volume_inside",

@@ -26,7 +26,6 @@ from meshforge.geometry.decomposition.fine import FINE_SETTINGS as FINE_SETTINGS
 from meshforge.geometry.decomposition.fine import PieceEngine as PieceEngine
 from meshforge.geometry.decomposition.fine import decompose_finely as decompose_finely
 from meshforge.geometry.decomposition.parts import SurfaceParts as SurfaceParts
-from meshforge.geometry.decomposition.parts import separate_parts as separate_parts
 from meshforge.geometry.decomposition.parts import stack_parts as stack_parts
 from meshforge.geometry.decomposition.regions import FinePiece as FinePiece
 from meshforge.geometry.decomposition.run import cache_folder as cache_folder

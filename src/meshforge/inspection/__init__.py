@@ -2,6 +2,4 @@
 
 from meshforge.common.exports import export_lazily
 
-__getattr__, __all__ = export_lazily(
-    __name__, {"decomposition": "advise_decomposition", "look": "Difference check diff render"}
-)
+__getattr__, __all__ = export_lazily(__name__, {"look": "Difference check diff render"})

@@ -1,5 +1,4 @@
 # Written by `python -m script.stubs`.
-from meshforge.inspection.decomposition import advise_decomposition as advise_decomposition
 from meshforge.inspection.look import Difference as Difference
 from meshforge.inspection.look import check as check
 from meshforge.inspection.look import diff as diff

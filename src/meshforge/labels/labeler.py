@@ -95,7 +95,7 @@ class Labeler(ABC):
     """A source of labels, built in or of a plug-in.
 
     A plug-in's class takes no arguments. name: what `label --with` takes, set for plug-ins by the registry; about: a
-    phrase for `--help` and reports; work: what progress lines call its work; replaces: whether it gives other labels to
+    phrase for `--help`; work: what progress lines call its work; replaces: whether it gives other labels to
     hulls that have one, so that one wants to know which.
     """
 

@@ -96,9 +96,8 @@ def _parse_plan(settings: Mapping[str, Any]) -> DecompositionPlan | None:
         own = kind(**values)
     except (MeshForgeError, TypeError):
         return None
-    known_ways: tuple[DecomposeBy, ...] = get_args(DecomposeBy)
-    by: DecomposeBy = next((one for one in known_ways if one == rest.get("by")), "whole")
-    return DecompositionPlan(own, tuple(rest.get("only", ())), bool(rest.get("hollow")), by)
+    by: DecomposeBy | None = next((way for way in get_args(DecomposeBy) if way == rest.get("by", "whole")), None)
+    return by and DecompositionPlan(own, tuple(rest.get("only", ())), bool(rest.get("hollow")), by)
 
 
 def keep_decomposed(store: Store, assets: Collection[str]) -> None:

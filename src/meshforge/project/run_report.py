@@ -1,4 +1,4 @@
-"""How sure the results of a project are, in sentences: for `review`, `status`, `apply`, downloads and the report of its
+"""How sure the results of a project are, in sentences: for `review`, `status`, `apply`, exports and the report of its
 outputs, which is built here."""
 
 from __future__ import annotations

@@ -1,22 +1,18 @@
-"""Files that a page uploads: safe names, limited sizes, streamed to disk, and taken only if they can be read; and files
-that were made for the browser to take away, given out by tickets."""
+"""Files that a page uploads: safe names, limited sizes, streamed to disk, and taken only if they can be read."""
 
 from __future__ import annotations
 
-import re
 import shutil
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from secrets import token_urlsafe
 from threading import Lock
-from time import monotonic
 from uuid import uuid4
 
 from meshforge.batch import find_assets_in
 from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reads, join_names, replace_atomically
 from meshforge.formats import read
-from meshforge.studio.errors import NotHereError, TooLargeError
+from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
 
 MB = 2**20
@@ -24,10 +20,6 @@ MOST_TEMPLATE, MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 20 * MB, 500 * MB, 20
 _LONGEST_PATH = 240
 REMEDY = "Send each asset together with all files that it names."
 """For assets that cannot be read."""
-TICKET_SECONDS = 60.0
-MOST_DOWNLOADS = 6
-"""Files to take away that are kept; the oldest goes."""
-_ODD = re.compile(r"[^\w.-]+")
 
 
 class Uploads:
@@ -153,64 +145,3 @@ def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
 def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
     with confine_reads(home):  # else a page could ask which files are on the disk
         return read(path).files
-
-
-@dataclass(frozen=True, slots=True)
-class _Ticket:
-    path: Path
-    until: float
-
-
-class Downloads:
-    """Keeps the files of one studio, by the job that made each, until it is closed. A ticket is good once, since the
-    address of a download cannot carry the token."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._lock = Lock()
-        self._files: dict[str, Path] = {}
-        self._tickets: dict[str, _Ticket] = {}
-        self.clear()
-
-    def path_for(self, number: str, name: str) -> Path:
-        """Return where a file is to be written. number: of its making, which no other has; name: what the browser calls
-        it."""
-        return self._folder / number / name
-
-    def add(self, job: str, path: Path) -> None:
-        """Add a file that a job has made."""
-        with self._lock:
-            self._files[job] = path
-            while len(self._files) > MOST_DOWNLOADS:
-                oldest = self._files.pop(next(iter(self._files)))
-                shutil.rmtree(oldest.parent, ignore_errors=True)
-
-    def give_ticket(self, job: str) -> str:
-        """Return a ticket for the file of a job. Raises NotHereError where there is none, or none any more."""
-        with self._lock:
-            path, now = self._files.get(job), monotonic()
-            if path is None or not path.is_file():
-                raise NotHereError("this file is not kept any more", remedy="Make it again.")
-            self._tickets = {ticket: one for ticket, one in self._tickets.items() if one.until > now}
-            ticket = token_urlsafe(24)
-            self._tickets[ticket] = _Ticket(path, now + TICKET_SECONDS)
-            return ticket
-
-    def redeem(self, ticket: str) -> Path:
-        """Return the file of a ticket, which is good no more. Raises NotHereError for one that is not good."""
-        with self._lock:
-            found = self._tickets.pop(ticket, None)
-        if found is None or found.until <= monotonic() or not found.path.is_file():
-            raise NotHereError("this address was good for one download", remedy="Save the file again in the studio.")
-        return found.path
-
-    def clear(self) -> None:
-        """Remove all files."""
-        with self._lock:
-            self._files, self._tickets = {}, {}
-        shutil.rmtree(self._folder, ignore_errors=True)
-
-
-def to_file_name(*words: str) -> str:
-    """Return words as the name of a file on every system, joined by `-`."""
-    return "-".join(plain for word in words if (plain := _ODD.sub("-", word).strip("-."))) or "meshforge"

@@ -10,7 +10,6 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PIL import Image
 
@@ -158,42 +157,6 @@ def test_a_mesh_of_several_parts_has_a_note_and_one_without_too_where_they_are_a
     assert "no parts are known" in run("decompose", "bar.obj", "-o", "h.obj", "--by", "parts", *QUICK_VOXELS).err
 
 
-@pytest.mark.slow
-def test_advice_compares_settings_and_draws_them(run: Run) -> None:
-    told = run("decompose", "row.obj", "--advise", "--json", "-o", "advice.png", *QUICK_VOXELS)
-    assert told.code == 0 and Path("advice.png").read_bytes().startswith(b"\x89PNG")
-    assert [(one["by"], one["setting"]) for one in told.json["results"]][2:4] == [
-        ("whole", "max_convex_hulls 8"), ("parts", "max_convex_hulls 64"),
-    ]  # fmt: skip
-    assert {one["spanning"] for one in told.json["results"] if one["by"] == "parts"} == {0}
-    again = run("decompose", "row.obj", "--advise", "-o", "advice.png", *QUICK_VOXELS)
-    assert again.code == 2 and "there already" in again.err
-
-
-def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
-    Path("bar.obj").write_text(obj(BAR))
-    told = run("decompose", "bar.obj", "--advise", *QUICK_VOXELS)
-    assert "not judged: one solid without named parts" in told.out and len(told.out.splitlines()) == 5
-
-
-@pytest.mark.slow
-def test_hulls_by_labels_of_points_are_called_by_their_classes(run: Run) -> None:
-    Path("bar.obj").write_text(obj(BAR))
-    half = np.arange(3000) / 1000
-    sides = [np.column_stack([half, half * 7 % 1, np.full(3000, z)]) for z in (0.0, 1.0)]
-    points = np.concatenate([*sides, *(side[:, [0, 2, 1]] for side in sides)])
-    np.savez("said.npz", points=points * 2, labels=(points[:, 0] > 1.5).astype(int))
-    words = ("decompose", "bar.obj", "-o", "hulls.obj", "--by", "labels", "--labels", "said.npz", *QUICK_VOXELS)
-    told = run(*words)
-    assert told.code == 2 and "They would fit with --align box." in told.err
-    told = run(*words, "--align", "box", "--classes", "left,right")
-    assert told.code == 0, told.err
-    assert "are mostly of another part" in told.err, "triangles as long as the bar"
-    assert {hull["name"][:4] for hull in run("info", "hulls.obj", "--json").json["hulls"]} <= {"left", "righ"}
-    told = run("decompose", "bar.obj", "--advise", "--labels", "said.npz", "--align", "box", *QUICK_VOXELS)
-    assert told.code == 0 and "span parts: " in told.out
-
-
 def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
     Path("t.urdf").write_text(
         '<robot name="t"><link name="a"><collision name="pin"><geometry><sphere radius="1"/></geometry></collision>'
@@ -317,15 +280,6 @@ def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
         ("new p row.obj --workers 1", "--workers says nothing without --decompose METHOD"),
         ("check row.obj --engine quake", "quake"),
         ("decompose row.obj", "nothing says what to write"),
-        ("decompose row.obj -o h.obj --json", "--json says nothing without --advise"),
-        ("decompose row.obj --advise --by parts", "--by does not go with --advise"),
-        ("decompose row.obj --advise --classes a,b", "--classes says nothing without --labels FILE"),
-        ("decompose row.obj -o h.obj --labels row.points.npz", "--labels says nothing without --by labels"),
-        ("decompose row.obj -o h.obj --by parts --align box", "--align says nothing without --by labels"),
-        ("decompose row.obj -o h.obj --by labels", "no labels of points lie beside it"),
-        ("decompose row.obj -o h.obj --by labels --labels gone.npz", "gone.npz: cannot be read"),
-        ("decompose row.obj -o h.obj --by labels --labels row.obj", ".obj is no kind of segmented points"),
-        ("decompose row.obj --advise -o h.obj", "writes a picture, no hulls"),
         ("decompose row.obj -o h.obj --set treshold=0.1", "threshold=0.05"),
         ("convert row.obj", "there is nothing to write to"),
         ("convert row.obj t.obj out", "several assets and no format"),

@@ -1,16 +1,14 @@
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
-import mujoco
 import numpy as np
 import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
-from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, FeatureKind
+from meshforge.symbolic import Asset, FeatureKind
 from tests.gltf_files import KHR, SceneFile, Tree
 from tests.soups import angle, box, together
 
@@ -124,98 +122,19 @@ def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp
     assert poses["lid"].translation.tolist() == [5, 2, 0]
 
 
-@pytest.mark.parametrize("length", [1.0, 2.0])
-def test_a_mass_with_its_inertia_is_read_in_the_root_frame(tmp_path: Path, length: float) -> None:
+def test_masses_are_not_read_and_that_is_said(tmp_path: Path) -> None:
     scene = SceneFile()
-    child = scene.collider("box", {"type": "box"})
-    half = float(np.sqrt(0.5))
-    motion: dict[str, object] = {"mass": 2, "centerOfMass": [1, 0, 0], "inertiaDiagonal": [3, 2, 1]}
-    motion["inertiaOrientation"] = [0, half * length, 0, half * length]  # takes X to -Z
-    scene.node(
-        "jar",
-        children=[child],
-        extensions={KHR: {"motion": motion}},
-        translation=[5, 0, 0],
-        rotation=[0, 0, half, half],
-    )
-    inertial = asset_of(scene, tmp_path).mechanism.inertials[0]
-    assert (inertial.body, inertial.mass) == ("jar", 2)
-    np.testing.assert_allclose(inertial.centre, [5, 1, 0], atol=1e-12)
-    np.testing.assert_allclose(inertial.inertia, np.diag([2, 1, 3]), atol=1e-12)
-
-
-def test_a_mass_without_its_inertia_has_that_of_the_hulls_as_mujoco_computes_it(tmp_path: Path) -> None:
-    scene = SceneFile()
-    round_ = {"height": 0.7, "radiusTop": 0.3, "radiusBottom": 0.3}
-    turn = {"rotation": [0.36, 0.48, 0, 0.8]}
-    scene.uses(KHR)
-    children = [
-        scene.collider("box", {"type": "box", "box": {"size": [1, 2, 3]}}, **turn),
-        scene.collider("sphere", {"type": "sphere", "sphere": {"radius": 0.4}}, translation=[3, 0, 0]),
-        scene.collider(
-            "egg", {"type": "sphere", "sphere": {"radius": 1}}, translation=[0, 4, 0], scale=[0.5, 0.2, 0.4]
-        ),
-        scene.collider("rod", {"type": "cylinder", "cylinder": round_}, translation=[0, 0, 5], **turn),
-        scene.collider("pill", {"type": "capsule", "capsule": round_}, translation=[0, 2, 5], **turn),
-        scene.node("hull", extensions={KHR: {"collider": {"geometry": {"mesh": 0, "convexHull": True}}}}),
-    ]
-    scene.mesh(together(box((4, 0, 0), (1, 3, 1)), box((4, 0, 0), (2, 1, 1))))
-    motion = {KHR: {"motion": {"mass": 2}}}
-    scene.node("jar", children=children, translation=[5, 0, 0], rotation=[0, 0.6, 0, 0.8], extensions=motion)
-    asset = asset_of(scene, tmp_path)
-    assert {geom.shape.kind for geom in asset.geoms} == {*PRIMITIVE_FEATURES, "polytope"}
-    text = save(asset, tmp_path / "m.xml").path.read_text()
-    (tmp_path / "n.xml").write_text(re.sub("<inertial.*?>", "", text))
-    ours, own = (mujoco.MjModel.from_xml_path(str(tmp_path / name)) for name in ("m.xml", "n.xml"))
-    assert ours.body_mass[1] == 2
-    np.testing.assert_allclose(ours.body_ipos[1], own.body_ipos[1], atol=1e-6)
-    expected = np.sort(own.body_inertia[1]) * 2 / own.body_mass[1]
-    np.testing.assert_allclose(np.sort(ours.body_inertia[1]), expected, rtol=1e-5)
-
-
-def test_a_centre_of_mass_that_is_said_is_that_about_which_the_hulls_turn(tmp_path: Path) -> None:
-    scene = SceneFile()
-    child = scene.collider("box", {"type": "box"})
-    motion = {"mass": 6, "centerOfMass": [0, 1, 0]}
-    scene.node("jar", children=[child], extensions={KHR: {"motion": motion}})
-    (inertial,) = asset_of(scene, tmp_path).mechanism.inertials
-    np.testing.assert_allclose(inertial.centre, [0, 1, 0])
-    np.testing.assert_allclose(inertial.inertia, np.diag([7, 1, 7]), atol=1e-12)
-
-
-OMI_MASSES: dict[str, tuple[Tree, list[float]]] = {
-    "told": ({"motion": {"type": "dynamic", "mass": 6, "inertiaDiagonal": [1, 2, 3]}}, [1, 2, 3]),
-    "left to the engine": ({"motion": {"type": "dynamic", "mass": 6, "inertiaDiagonal": [0, 0, 0]}}, [1, 1, 1]),
-    "older": ({"type": "rigid", "mass": 6, "inertiaTensor": [3, 0, 0, 0, 2, 0, 0, 0, 4]}, [3, 2, 4]),
-    "older, left to the engine": ({"type": "rigid", "mass": 6, "inertiaTensor": [0] * 9}, [1, 1, 1]),
-}
-
-
-@pytest.mark.parametrize("form", OMI_MASSES)
-def test_masses_of_omi_are_read(tmp_path: Path, form: str) -> None:
-    said, expected = OMI_MASSES[form]
-    scene = SceneFile()
-    scene.node("jar", children=[omi(scene, "c", {"type": "box"})], extensions={"OMI_physics_body": said})
-    (inertial,) = asset_of(scene, tmp_path).mechanism.inertials
-    assert inertial.mass == 6
-    np.testing.assert_allclose(inertial.inertia, np.diag(expected), atol=1e-12)
-
-
-def test_masses_that_cannot_go_along_are_told(tmp_path: Path) -> None:
-    scene = SceneFile()
-    for name, motion in {
-        "fine": {"mass": 1},
-        "heavy": {"mass": 0},
-        "stiff": {"mass": 2, "inertiaDiagonal": [0, 0, 0]},
-        "free": {},
-    }.items():
+    for name, motion in {"khr": {"mass": 1}, "free": {}}.items():
         child = scene.collider(f"{name} box", {"type": "box"})
         scene.node(name, children=[child], extensions={KHR: {"motion": motion}})
-    scene.node("ghost", extensions={KHR: {"motion": {"mass": 3}}})
-    lost = save(asset_of(scene, tmp_path), tmp_path / "m.urdf").report.lost
+    scene.node("omi", extensions={"OMI_physics_body": {"motion": {"type": "dynamic", "mass": 6}}})
+    scene.node("older", extensions={"OMI_physics_body": {"type": "rigid", "mass": 6}})
+    asset = asset_of(scene, tmp_path)
+    assert "not read: 3 masses; in checks the hulls have the density of water" in asset.notes
+    assert not asset.mechanism.inertials
+    lost = save(asset, tmp_path / "m.urdf").report.lost
     assert [str(loss) for loss in lost if loss.kind is FeatureKind.MASSES] == [
-        "2 masses (heavy, stiff) are left out: they or their inertia are endless",
-        "1 mass (ghost) is left out: no hull of these bodies gives their inertia",
+        "3 masses (khr, omi, older) are left out: masses of a glTF are not read"
     ]
 
 

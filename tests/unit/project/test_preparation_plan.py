@@ -64,8 +64,9 @@ def test_no_decomposition_is_planned_where_assets_differ(project: Project) -> No
     assert "in 2 ways, so new ones are not decomposed (a.urdf; b.urdf)" in plan.unclear
 
 
-def test_options_of_another_version_are_not_guessed(project: Project) -> None:
-    write_record(project, "a.urdf", settings(wobble=3))
+@pytest.mark.parametrize("option", [{"wobble": 3}, {"by": "labels"}])
+def test_options_of_another_version_are_not_guessed(project: Project, option: dict[str, object]) -> None:
+    write_record(project, "a.urdf", settings(**option))
     plan = read_preparation_plan(project)
     assert plan.decompose == () and plan.unclear is not None and "another version" in plan.unclear
 

@@ -23,7 +23,6 @@ from tests.unit.deaths import deaths, needs_fork
 from tests.unit.labels.test_label_by_propagation import NAMES, family
 
 ASSETS = ("t0.obj", "t1.obj", "t2.obj")
-HULLS = dict.fromkeys(ASSETS, NAMES)
 
 
 def label(asset: str, hull: str, to: str | None) -> LabelHulls:
@@ -60,41 +59,6 @@ def cards(project: Project) -> list[Card]:
 
 def read_propagation(project: Project, history: History) -> PropagationState | None:
     return LabelChanges(history).propagation_state(cards(project))
-
-
-def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
-    project, history = labelled(tmp_path)
-    relabelling = LabelChanges(history)
-    assert relabelling.last_change(HULLS) is None
-    carry(project, history)
-    found = relabelling.last_change(HULLS)
-    assert found and found.way == "label-all"
-    assert [(one.asset, one.new, one.changed) for one in found.assets] == [
-        (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
-    ]
-    make_edit(history, project, label("t1.obj", "crumb", "leg"))
-    assert relabelling.last_change(HULLS) is None
-    history.undo()
-    assert relabelling.last_change(HULLS) == found
-    assert LabelChanges(History.open(project.folder)).last_change(HULLS) == found, (
-        "a studio that is opened anew knows it, too"
-    )
-    history.undo()
-    assert relabelling.last_change(HULLS) is None
-    history.redo()
-    assert relabelling.last_change(HULLS) == found
-
-
-def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) -> None:
-    project, history = labelled(tmp_path)
-    carry(project, history)
-    project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
-    carry(project, history)
-    found = LabelChanges(history).last_change(HULLS)
-    assert found
-    assert [one.model_dump() for one in found.assets] == [
-        {"asset": "t2.obj", "new": (), "changed": (NAMES.index("top"),), "was": ("misc",)}
-    ]
 
 
 def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again(tmp_path: Path) -> None:

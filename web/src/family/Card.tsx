@@ -1,7 +1,6 @@
 // One asset: its picture, name, number of hulls, and signs for how it stands, each a shape of its own with its words
 // behind it.
 import {
-  ArrowLeftRight,
   Boxes,
   Check,
   CircleAlert,
@@ -22,7 +21,6 @@ import { Thumbnail } from "../pictures/Thumbnail";
 import { commonPartsOf } from "../store/commonParts";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useSelectedPositions } from "../store/familySelection";
-import { useLabelChangesOf } from "../store/labelChanges";
 import { doubtsText, probabilityText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { extendSheet, toggleOnSheet } from "../store/sheet";
@@ -30,9 +28,9 @@ import { countText } from "../store/words";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Name } from "../ui/Name";
-import type { Card as CardData, AssetLabelUpdate } from "../wire";
+import type { Card as CardData } from "../wire";
 import css from "./card.module.css";
-import { type Badge, badgesOf, cardText, fitBadges, hullsText, relabelledText } from "./cardText";
+import { type Badge, badgesOf, cardText, fitBadges, hullsText } from "./cardText";
 
 interface CardProps {
   asset: string;
@@ -50,14 +48,12 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const current = useWorkspace((workspace) => workspace.asset === asset);
   const inView = useWorkspace(({ sheet }) => sheet.includes(asset));
   const selected = useSelectedPositions(asset);
-  const found = useLabelChangesOf(asset);
-  const relabelled = useWorkspace((workspace) => workspace.stage === "label") ? found : null;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
   const sure = useProject((state) => probabilityText(state, asset));
   const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
-  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled), selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
+  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
   return (
     <div
       id={cardId(asset)}
@@ -75,7 +71,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
       onDoubleClick={() => setLayout({ gallery: false })}
     >
       <span className="visually-hidden">{said}</span>
-      {card.error === null ? <Face card={card} large={large} relabelled={relabelled} selected={selected} /> : <Broken error={card.error} />}
+      {card.error === null ? <Face card={card} large={large} selected={selected} /> : <Broken error={card.error} />}
       <div className={css.foot} aria-hidden>
         <span className={css.name}>
           <Name text={asset} parts={parts} hidden />
@@ -110,14 +106,12 @@ function Broken({ error }: { error: string }) {
 interface FaceProps {
   card: CardData;
   large: boolean;
-  /** What became of its labels in the last edit of all labels. */
-  relabelled: AssetLabelUpdate | null;
   /** Its selected hulls while hulls of several assets are selected. */
   selected: readonly number[] | undefined;
 }
 
 /** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
-function Face({ card, large, relabelled, selected }: FaceProps) {
+function Face({ card, large, selected }: FaceProps) {
   const [over, setOver] = useState(false);
   const results = useWorkspace((workspace) => workspace.stage === "review" && workspace.highlight === null);
   const pointed = useWorkspace((workspace) => (workspace.highlight ? (workspace.highlight.assets[card.asset] ?? NONE) : undefined));
@@ -137,7 +131,6 @@ function Face({ card, large, relabelled, selected }: FaceProps) {
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
       {marked && isKnown && card.hulls > 0 && <span className={css.marked} aria-hidden>{marked.length}</span>}
-      {!marked && relabelled && <LabelUpdate found={relabelled} />}
       {card.hulls === 0 && card.sources > 0 && (
         <span className={css.over}>
           <MakeHulls asset={card.asset} />
@@ -145,21 +138,6 @@ function Face({ card, large, relabelled, selected }: FaceProps) {
       )}
       {large && edited && <span className={css.which} aria-hidden>{showing === "output" ? "after" : "before"}</span>}
     </div>
-  );
-}
-
-/** How many of its labels the last edit of all labels gave or changed. */
-function LabelUpdate({ found }: { found: AssetLabelUpdate }) {
-  return (
-    <span className={css.relabelled} aria-hidden title={relabelledText(found)}>
-      {found.new.length > 0 && `+${found.new.length}`}
-      {found.changed.length > 0 && (
-        <span className={css.swapped}>
-          <ArrowLeftRight size={10} aria-hidden />
-          {found.changed.length}
-        </span>
-      )}
-    </span>
   );
 }
 

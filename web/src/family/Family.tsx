@@ -1,7 +1,6 @@
 // The family as the left column, or in place of the view with larger pictures: how many assets there are, what to show
 // of them, and the cards.
 import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
-import { LabelChanges } from "./LabelChanges";
 import { useShown } from "../store/family";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { oncePerFamily, useProject } from "../store/project";
@@ -42,9 +41,6 @@ export function Gallery() {
       <MissingHulls />
       <SignOff />
       <Filters />
-      <div className={css.outcome}>
-        <LabelChanges />
-      </div>
       <Cards large />
       <LeftOut />
     </div>

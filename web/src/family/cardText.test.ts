@@ -1,7 +1,7 @@
 // Words on cards.
 import { expect, test } from "vitest";
 import type { Card } from "../wire";
-import { badgesOf, cardText, fitBadges, relabelledText } from "./cardText";
+import { badgesOf, cardText, fitBadges } from "./cardText";
 
 const card: Card = {
   asset: "a.urdf",
@@ -55,10 +55,4 @@ test("signs that do not fit are counted; what matters most stays", () => {
   expect(shown.map((badge) => badge.name)).toEqual(["stale", "demonstrated"]);
   expect(rest).toHaveLength(all.length - 2);
   expect(fitBadges(all, 0)).toEqual({ shown: [], rest: all });
-});
-
-test("what became of labels is said in words", () => {
-  const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
-  expect(relabelledText(found)).toBe("2 labels are new, 1 label changed");
-  expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels changed");
 });

@@ -2,7 +2,7 @@
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
 import type { FilterName } from "../store/workspace";
-import type { Card, AssetLabelUpdate } from "../wire";
+import type { Card } from "../wire";
 
 export const hullsText = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);
 
@@ -52,15 +52,6 @@ export function fitBadges(all: readonly Badge[], room: number): { shown: readonl
   if (sum(all.length) <= room) return { shown: all, rest: [] };
   const most = widths.findLastIndex((_, k) => sum(k) + SIGN <= room);
   return { shown: all.slice(0, Math.max(most, 0)), rest: all.slice(Math.max(most, 0)) };
-}
-
-/** What became of the labels of an asset: `24 labels are new, 1 is another`. */
-export function relabelledText({ new: fresh, changed }: AssetLabelUpdate): string {
-  const parts = [
-    fresh.length && (fresh.length === 1 ? "1 label is new" : `${fresh.length} labels are new`),
-    changed.length && (changed.length === 1 ? "1 label changed" : `${changed.length} labels changed`),
-  ];
-  return parts.filter(Boolean).join(", ");
 }
 
 /** A card as a screen reader says it. */

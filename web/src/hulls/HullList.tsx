@@ -5,7 +5,6 @@ import { type KeyboardEvent, type MouseEvent, useEffect, useMemo, useRef, useSta
 import { tonesOf } from "../pictures/hullColors";
 import { type CommonParts, findCommonParts, splitName } from "../store/commonParts";
 import { placeOf } from "../store/hullPlaces";
-import { useFormerLabels } from "../store/labelChanges";
 import { useProject } from "../store/project";
 import { type Scene, useScenes } from "../store/scenes";
 import { countText } from "../store/words";
@@ -52,7 +51,6 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const colorBy = useWorkspace((workspace) => workspace.view.colorBy);
   const tone = useMemo(() => tonesOf(scene, colorBy, vocabulary), [scene, colorBy, vocabulary]);
   const rows = useMemo(() => rowsOf(scene.hulls, scene.contacts, search, order), [scene, search, order]);
-  const former = useFormerLabels(scene.asset, scene.view.hulls);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
   const partsOf = useMemo(() => findCommonParts(scene.hulls.map((hull) => hull.name)), [scene.hulls]);
   const shortOf = useMemo(() => shortNamesOf(scene), [scene]);
@@ -98,7 +96,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             if (row) {
               const { name } = row.hull;
               const place = { index, top: start - HEAD, active: index === at };
-              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} short={shortOf(name)} was={former.get(name)} {...place} />;
+              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} short={shortOf(name)} {...place} />;
             }
             const piece = opaque[index - rows.length];
             return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;

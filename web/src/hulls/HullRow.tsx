@@ -26,11 +26,9 @@ interface HullRowProps extends Place {
   readonly short: string | undefined;
   /** Whether the keys are at it. */
   readonly active: boolean;
-  /** The label that it had before the last edit of all labels, where that was another one. */
-  readonly was: string | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, parts, short, active, was, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, parts, short, active, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
@@ -62,9 +60,8 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
           </>
         )}
       </span>
-      <span role="gridcell" title={labelTitle(row, was)}>
+      <span role="gridcell" title={labelTitle(row)}>
         {hull.label ?? <i aria-label="no label">–</i>}
-        {was !== undefined && <span className={css.changed} role="img" aria-label={`was ${was}`} />}
       </span>
       <span role="gridcell" className={css.number}>
         {volumeText(hull.volume, unit)}
@@ -79,10 +76,10 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
   );
 });
 
-function labelTitle({ hull }: Row, was: string | undefined): string {
+function labelTitle({ hull }: Row): string {
   if (hull.look === null) return "No label";
   const share = hull.confidence === null ? "" : sureText(hull.confidence);
-  const parts = [hull.label ?? "no part", share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
+  const parts = [hull.label ?? "no part", share, hull.source ? sourceText(hull.source) : ""];
   return parts.filter(Boolean).join(", ");
 }
 

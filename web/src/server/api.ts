@@ -64,7 +64,6 @@ export const api = {
   checkProgram: (text: string, stop?: AbortSignal) => postJson<ProgramCheck>("api/program/check", { text }, stop),
   labelSources: () => getJson<LabelSources>("api/labels/sources"),
   startJob: (request: JobRequest) => postJson<Job>("api/jobs", request),
-  downloadTicket: (job: string) => postJson<string>("api/download", { job }),
   cancelJob: (id: string) => postJson<Job>("api/jobs/cancel", { id }),
   uploadTemplate: (file: File) => putBytes<UploadReceipt>("api/templates", { name: file.name }, file),
   stageAssetFile: (path: string, file: Blob) => putBytes<UploadReceipt>("api/assets", { path }, file),

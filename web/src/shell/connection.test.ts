@@ -43,7 +43,7 @@ function answer(status: number): void {
 const hello = (page: Awaited<ReturnType<typeof load>>, change: object = {}) => {
   const cards = ["a", "b"].map((asset) => page.sampleCard({ asset }));
   const { project, history, program } = page.emptyProject;
-  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: {}, language: page.emptyProject.language, leave: true, ...change };
+  const event = { kind: "hello", version: "1", project, cards, history, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: {}, language: page.emptyProject.language, leave: true, ...change };
   socket.onmessage({ data: JSON.stringify(event) });
 };
 

@@ -1,6 +1,6 @@
 // Long work that a person starts: labelling, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { DownloadJob, Job, JobRequest } from "../wire";
+import type { Job, JobRequest } from "../wire";
 import { pendingEdits } from "./edits";
 import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
@@ -85,9 +85,6 @@ export const askModel = (every_hull: boolean, max_cost: number | null): Promise<
 
 export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, signed_only });
-
-/** Has a file made for the browser to save; gives the id of the job. */
-export const makeFile = (request: Omit<DownloadJob, "kind">): Promise<string | null> => requestJob({ kind: "download", ...request });
 
 /** Why results cannot be checked, null where they can. */
 export function whyNotCheck(): string | null {

@@ -13,7 +13,7 @@ export function useFreshSources(): LabelSources {
   const vocabulary = useProject((state) => state.project.vocabulary);
   const assets = useProject((state) => state.order.length);
   const read = useProject((state) => countReadable(state.cards));
-  const relabelled = useProject((state) => state.relabelled);
+  const labelled = useProject((state) => state.jobs.find((job) => job.kind === "label")?.state);
   useEffect(() => {
     let is = true;
     const timer = setTimeout(() => {
@@ -23,6 +23,6 @@ export function useFreshSources(): LabelSources {
       is = false;
       clearTimeout(timer);
     };
-  }, [vocabulary, assets, read, relabelled]);
+  }, [vocabulary, assets, read, labelled]);
   return useLabelSources();
 }

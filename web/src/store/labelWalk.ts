@@ -1,6 +1,6 @@
 // Hulls whose label nobody gave, the least sure first: how many, and the walk in which each is labelled and then comes
 // the next.
-import type { Card } from "../wire";
+import type { Card, Job } from "../wire";
 import { GIVEN, isUnsure, UNLABELLED } from "./family";
 import { labelHulls, NO_PART, ownHulls } from "./labels";
 import { oncePer } from "./once";
@@ -65,9 +65,12 @@ export function placeInWalk(cards: Cards, asset: string, own: readonly { name: s
 /** The hull that the walk has put in hand. */
 let current: (Place & { hull: string }) | null = null;
 
+const isLabelling = (jobs: readonly Job[]): boolean =>
+  jobs.some(({ kind, state }) => (kind === "label" || kind === "ask") && state === "running");
+
 // it begins anew where all labels are others
 useProject.subscribe((now, before) => {
-  if (now.relabelled && now.relabelled !== before.relabelled) current = null;
+  if (isLabelling(before.jobs) && !isLabelling(now.jobs)) current = null;
 });
 
 /** Labels the selected hulls, or, where none is, arms the label so that clicks paint it; null takes labels away. */

@@ -11,7 +11,6 @@ const hello: Hello = {
   project: emptyProject.project,
   cards: [card("b"), card("a")],
   history: emptyProject.history,
-  relabelled: null,
   program: emptyProject.program,
   outcome: null,
   learning: false,
@@ -82,11 +81,4 @@ describe("what the server says", () => {
     expect(two.jobs).toHaveLength(1);
     expect(two.jobs[0]?.done).toBe(1);
   });
-});
-
-it("what the last edit of all labels did is there until the server says otherwise", () => {
-  const relabelled = { way: "label-all", assets: [] } as const;
-  const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
-  expect(told.relabelled?.way).toBe("label-all");
-  expect(applyEvent(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
 });

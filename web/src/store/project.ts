@@ -47,7 +47,6 @@ export const emptyProject: ProjectState = {
   cards: {},
   order: [],
   history: { undo: null, redo: null, undoable: 0, redoable: 0 },
-  relabelled: null,
   program: { text: "", version: "", by_hand: false, outdated: false, labels: [], orient_sentence: "", rules: [], error: null },
   outcome: null,
   learning: false,
@@ -100,8 +99,7 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       };
     }
     case "project":
-    case "program":
-    case "relabelled": {
+    case "program": {
       const { kind, ...changed } = event;
       return { ...state, ...changed };
     }

@@ -1,7 +1,6 @@
 // The view of an asset: a toolbar, the picture, and what lies over it.
 import { useEffect, useRef, useState } from "react";
 import type { WebGLRenderer } from "three";
-import { LabelChanges } from "../family/LabelChanges";
 import { useScenes } from "../store/scenes";
 import { countText } from "../store/words";
 import { setTool, useWorkspace } from "../store/workspace";
@@ -78,7 +77,6 @@ function CanvasLayers({ sheet }: { sheet: Canvas }) {
         <RulerBar />
         <CutBar />
         <LandmarkBar />
-        <LabelChanges />
         <SelectionBar />
       </div>
     </>

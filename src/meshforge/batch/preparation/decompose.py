@@ -1,7 +1,7 @@
 """Hulls for what an asset has none for, by a decomposition engine, and how well they fit what they were made of."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from glob import escape
 from importlib.metadata import version
@@ -15,8 +15,8 @@ from meshforge import geometry
 from meshforge.batch.preparation import record
 from meshforge.checks import measure_kept_space
 from meshforge.common import GeometryError, MeshForgeError, join_names, pluralize
-from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
-from meshforge.geometry import Aabb, CoacdSettings, DecomposeSettings, Floats, HullSettings, Polytope
+from meshforge.formats import DecomposeBy, plain_part_name
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Floats, HullSettings, Polytope
 from meshforge.symbolic import Asset, Surface
 
 Concave = Literal["keep", "hull", "decompose"]
@@ -60,10 +60,9 @@ def decompose_asset(
     asset: as it was read; before: what is prepared already and stays as it is, as far as it still fits the asset;
     only: names, or patterns of them, of pieces and bodies, none for all; again: decompose anew what is decomposed;
     hollow: planar holes are not closed first, so that shells of one sheet are not filled; by: `parts` decomposes each
-    group, node and material by itself, where a file has several, `labels` each patch of a class of the segmented points
-    or faces beside it.
+    group, node and material by itself, where a file has several.
     progress: called with how many pieces are done, of how many.
-    One piece that fails does not keep the others from being done. Raises AssetError: those points do not fit the asset.
+    One piece that fails does not keep the others from being done.
     """
     fit = record.replay_preparation(asset, _drop_decompositions(before, only) if again else before)
     kept = fit.preparation
@@ -72,16 +71,14 @@ def decompose_asset(
     hulls: list[Polytope] = []
     failed: list[record.PieceProblem] = []
     is_hull = isinstance(settings, HullSettings) and by == "whole"  # which stands for a whole element, as engines do it
-    bare, remarks = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
-    if by == "labels" and bare:
-        bare = _label_sources(fit.asset, bare, remarks.append)
+    bare = record.find_sources(fit.asset, asset if is_hull else None)
     done = (entry.what for step in kept.steps for entry in step.replaced if entry.kind != "hull")
     missed = _describe_no_match(only, [*(source.what for source in bare), *done])
     chosen = [source for source in bare if matches_only(source.what, only)]
     for number, source in enumerate(chosen):
         progress(number, len(chosen))
         try:
-            entry, own = _decompose_source(source, settings, taken, hollow, by, cache, remarks)
+            entry, own = _decompose_source(source, settings, taken, hollow, by, cache)
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
             why = MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
@@ -124,9 +121,8 @@ def _decompose_source(
     hollow: bool,
     by: DecomposeBy,
     cache: Path | None,
-    remarks: Sequence[str],
 ) -> tuple[record.Replacement, list[Polytope]]:
-    notes = list(remarks)
+    notes = list[str]()
     surface = source.surface
     if by != "whole" and surface.parts and surface.parts.is_divided:
         found = geometry.decompose_by_parts(
@@ -142,32 +138,6 @@ def _decompose_source(
     made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
     remark = "; ".join([describe_fit(source.surface, hulls), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remark), hulls
-
-
-def _label_sources(
-    asset: Asset, sources: Sequence[record.DecompositionSource], note: Callable[[str], None]
-) -> tuple[record.DecompositionSource, ...]:
-    """The sources with the parts that the segmented points beside the asset say; where there are none, no
-    parts are known."""
-    beside = points_beside(labels_beside(asset.path))
-    if beside is None:
-        note(f"no labels of points lie beside {asset.path.name}")
-        return tuple(replace(one, surface=replace(one.surface, parts=None)) for one in sources)
-    surfaces = [(one.surface.vertices, one.surface.faces) for one in sources]
-    found = read_parts(surfaces, SegmentationFile(beside), asset.up, note, _list_boxes(asset, sources))
-    rows = zip(sources, found, strict=True)
-    return tuple(replace(one, surface=replace(one.surface, parts=parts)) for one, parts in rows)
-
-
-def _list_boxes(asset: Asset, sources: Sequence[record.DecompositionSource]) -> list[Aabb]:
-    """Boxes that points of an asset may fill: that around all that collides, and that around all that is shown."""
-    hulls = [geom.shape.aabb for geom in asset.geoms]
-    pieces, shown = (_boxes_of(surfaces) for surfaces in ([one.surface for one in sources], asset.visuals))
-    return [Aabb.union(boxes) for boxes in ([*hulls, *pieces], shown) if boxes]
-
-
-def _boxes_of(surfaces: Sequence[Surface]) -> list[Aabb]:
-    return [Aabb.of_points(one.vertices[one.faces].reshape(-1, 3)) for one in surfaces if len(one.faces)]
 
 
 def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str]:

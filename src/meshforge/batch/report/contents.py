@@ -29,13 +29,11 @@ EditStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
 """What a program or a conversion made of an asset; not written: nothing, since its edit is not sure enough."""
 CheckStatus = Literal["clean", "warnings", "errors", "failed"]
 """What checks found of one; failed: it could not be checked, or not be written."""
-LabelStatus = Literal["labelled", "doubtful", "problems"]
-"""How the labels of one are: of all hulls, lacking or unsure for some, or not all to be taken."""
-ReportStatus = EditStatus | CheckStatus | LabelStatus
-ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "clean", "labelled"})
+ReportStatus = EditStatus | CheckStatus
+ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "clean"})
 """What is expected of an asset, so that its card does not say it."""
-BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors", "problems"})
-REMARKABLE = BROKEN | {"warnings", "doubtful"}
+BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors"})
+REMARKABLE = BROKEN | {"warnings"}
 
 MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""

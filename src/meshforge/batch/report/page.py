@@ -25,11 +25,8 @@ STATUSES: tuple[contents.ReportStatus, ...] = (
     "unchanged",
     "skipped",
     "not written",
-    "labelled",
     "clean",
-    "doubtful",
     "warnings",
-    "problems",
     "errors",
     "failed",
 )
@@ -69,12 +66,10 @@ class ReportHeader:
 class ReportOptions:
     """What a report shows of its assets.
 
-    vocabulary: where it is about labels, those that hulls can have; pictured: how many assets get pictures,
-    demonstrated and failed ones first; progress: called for each asset; execution: where pictures are drawn, by default
-    here, one after the other.
+    pictured: how many assets get pictures, demonstrated and failed ones first; progress: called for each asset;
+    execution: where pictures are drawn, by default here, one after the other.
     """
 
-    vocabulary: Sequence[str] = ()
     pictured: int = MOST_PICTURED
     progress: Callable[[], None] | None = None
     execution: ExecutionOptions = IN_PROCESS
@@ -105,9 +100,9 @@ def write_report(
     elif any(asset.checked for asset in assets):
         assets = sorted(assets, key=lambda asset: (not asset.is_broken, not asset.findings))
     meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
-    known = tuple(options.vocabulary) or (program.labels if program else ())
+    known = program.labels if program else ()
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
-    labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
+    labelled = any(hull.label for mesh in meshes for hull in mesh.hulls)
     colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled)
     order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].needs_review))
     chosen = frozenset(order[: options.pictured])

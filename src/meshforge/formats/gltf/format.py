@@ -10,7 +10,7 @@ from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, Sce
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import Convention, GltfDocument
-from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
+from meshforge.formats.gltf.physics import KHR, says_mass
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
@@ -64,7 +64,7 @@ class GltfFormat(SceneFormat):
             return ()
         with report_damage(str(asset.path)):
             tree = GltfScene.of(asset.document.source, asset.path).tree
-            return [*_list_features(tree), *_list_missing_masses(tree, asset.document, asset)]
+            return list(_list_features(tree, asset.document))
 
     def is_unmarked(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == "plain"
@@ -127,7 +127,7 @@ class GltfForUnity(EngineGltf):
     engine = UnityNames()
 
 
-def _list_features(tree: Json) -> Iterator[Feature]:
+def _list_features(tree: Json, document: GltfDocument) -> Iterator[Feature]:
     others = [key.removesuffix("s") for key in _LISTS for _ in entries(tree, key)]
     others += ["light"] * len(entries(extension(tree, _LIGHTS) or {}, "lights"))
     parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
@@ -141,12 +141,5 @@ def _list_features(tree: Json) -> Iterator[Feature]:
         for node in entries(tree, "nodes")
     ]
     yield Feature(FeatureKind.JOINTS, unnamed=sum(joints))
-
-
-def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
-    known = {inertial.body for inertial in asset.mechanism.inertials}
-
-    motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
-    reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}
-    for reason in dict.fromkeys(reasons.values()):
-        yield Feature(FeatureKind.MASSES, tuple(name for name, why in reasons.items() if why == reason), reason=reason)
+    heavy = tuple(name for node, name in document.bodies if says_mass(entry(tree, "nodes", node)))
+    yield Feature(FeatureKind.MASSES, heavy, reason="masses of a glTF are not read")

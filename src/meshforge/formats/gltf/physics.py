@@ -1,6 +1,6 @@
-"""What physics extensions say of a scene: which nodes are bodies, the shapes they collide with, and their masses."""
+"""What physics extensions say of a scene: which nodes are bodies, and the shapes they collide with; and the masses of
+bodies that are written."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +10,9 @@ from meshforge.formats.collision_pieces import CollisionPiece, build_round, buil
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.kinematic_tree import BodyTree, drop_rounding
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
-from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement, rotation_in
-from meshforge.geometry import Box, Pose, Shape, Sphere, inertia, principal_axes
-from meshforge.symbolic import Asset, Body, Inertial
+from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
+from meshforge.geometry import Box, Pose, Sphere, principal_axes
+from meshforge.symbolic import Asset, Body
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 _MESHES = ("mesh", "convex", "trimesh")
@@ -112,9 +112,6 @@ def _read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> Co
     return CollisionPiece(None, f"a shape of type {kind!r} is not known")
 
 
-_SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
-
-
 def motion_of(asset: Asset, body: Body) -> Json:
     """Return the `motion` of a body: kinematic for the fixed part of something with joints; its mass where known."""
     is_kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
@@ -136,46 +133,12 @@ def mass_keys(asset: Asset, body: Body) -> Json:
     return keys
 
 
-def read_motion(node: Json) -> Json:
-    """Return how a node says it moves as a body: KHR's `motion`, else OMI's, in older files the extension.
-
-    Zeros of OMI that leave the inertia to the engine are left out.
-    """
+def says_mass(node: Json) -> bool:
+    """Return whether a node says what it weighs as a body: in KHR's `motion`, else in OMI's, of older files the
+    extension."""
     khr, omi = extension(node, KHR) or {}, extension(node, OMI) or {}
-    if "motion" in khr:
-        return khr["motion"] if isinstance(khr["motion"], dict) else {}
-    motion = omi.get("motion", omi)
-    own = motion.items() if isinstance(motion, dict) else ()
-    return {key: value for key, value in own if key not in _SIZES or numbers(motion, key, _SIZES[key], ()).any()}
-
-
-def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> Inertial | None:
-    """Return what a node that is a body weighs; hulls: of the body, whose inertia it has where it says none.
-
-    None where it is endless, or where the file leaves that to the engine. Raises ValueError.
-    """
-    motion = read_motion(placement.node)
-    mass, has_inertia = number(motion, "mass", 0.0), bool(_SIZES.keys() & motion.keys())
-    if mass <= 0 or not (hulls or has_inertia):
-        return None
-    centre = placement.world @ np.array([*numbers(motion, "centerOfMass", 3, (0.0, 0.0, 0.0)), 1.0])
-    if not has_inertia:
-        return Inertial(body, mass, *inertia(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
-    if "inertiaDiagonal" in motion:
-        moments = numbers(motion, "inertiaDiagonal", 3, ())
-        axes = rotation_in(motion, "inertiaOrientation")
-    else:
-        moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
-    if moments.min() <= 0:
-        return None  # zero stands for endless
-    axes = rigid_pose_of(placement).rotation @ axes
-    return Inertial(body, mass, centre[:3], axes @ np.diag(moments) @ axes.T)
-
-
-def explain_missing_mass(motion: Json) -> str:
-    """Return why a body that says its mass has none in the asset."""
-    is_endless = number(motion, "mass", 0.0) <= 0 or _SIZES.keys() & motion.keys()
-    return "they or their inertia are endless" if is_endless else "no hull of these bodies gives their inertia"
+    motion = khr.get("motion", omi.get("motion", omi))
+    return isinstance(motion, dict) and "mass" in motion
 
 
 def body_nodes(scene: GltfScene) -> dict[int, int]:

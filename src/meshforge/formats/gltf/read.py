@@ -22,7 +22,7 @@ from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import LazySurfaces, screen_color
 from meshforge.geometry import Floats, Ints, Pose
-from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
+from meshforge.symbolic import Asset, Body, FileNote, Mentions, NameProblem, Rgba, Surface, unique_names
 
 _HOW: dict[Convention, str] = {
     "khr": "its colliders are those of KHR_physics_rigid_bodies",
@@ -55,9 +55,6 @@ def read_gltf(path: Path) -> Asset:
         authored = _record_nodes(sources, owners)
         mentions = [_mentions_of_node(scene, source) for source in sources]
         geoms, non_convex = build_pieces(authored, [source.parts for source in sources], mentions)
-        hulls = {name: [geom.shape for geom in geoms if geom.body == name] for name in bodies.values()}
-        found = (physics.read_inertial(scene.placements[k], name, hulls[name]) for k, name in bodies.items())
-        masses = tuple(inertial for inertial in found if inertial is not None)
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
@@ -76,7 +73,6 @@ def read_gltf(path: Path) -> Asset:
         files=files,
         missing=missing,
         notes=tuple(notes),
-        mechanism=Mechanism(inertials=masses),
         up="y",
         name_problems=tuple(problems),
     )
@@ -220,6 +216,8 @@ def _collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     )
     if triggers:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
+    if heavy := sum(physics.says_mass(one.node) for one in placements.values()):
+        yield FileNote(f"not read: {pluralize(heavy, 'mass', 'masses')}; in checks the hulls have the density of water")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
     if skinned := sum("skin" in node for node in shown):
         yield f"what skins move is not read, and left as it is: {pluralize(skinned, 'mesh', 'meshes')}"

@@ -105,7 +105,7 @@ class MjcfModel:
             case kinds.mjGEOM_PLANE:
                 return CollisionPiece(None, "a plane has no end", plane=pose)
             case kinds.mjGEOM_HFIELD:
-                return CollisionPiece(None, "a height field is no convex hull", self._read_field(geom))
+                return CollisionPiece(None, "a height field is no convex hull")
             case kinds.mjGEOM_SDF:
                 data = int(self.model.geom_dataid[geom])
                 surface = self.mesh_surface(data, pose) if data >= 0 else None
@@ -162,19 +162,6 @@ class MjcfModel:
         first, count = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_vertnum[mesh])
         vertices: geometry.Floats = self.model.mesh_vert[first : first + count].astype(np.float64)
         return vertices
-
-    def _read_field(self, geom: int) -> Surface:
-        """The upper side of a height field in the root frame."""
-        model, field = self.model, int(self.model.geom_dataid[geom])
-        rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
-        start = int(model.hfield_adr[field])
-        x, y, z, _ = model.hfield_size[field].astype(np.float64)
-        heights = model.hfield_data[start : start + rows * columns].astype(np.float64) * z
-        ys, xs = np.meshgrid(np.linspace(-y, y, rows), np.linspace(-x, x, columns), indexing="ij")
-        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
-        one, other = (corner, corner + 1, corner + columns), (corner + 1, corner + columns + 1, corner + columns)
-        faces = np.concatenate([np.stack(one, axis=1), np.stack(other, axis=1)])
-        return Surface(self.geom_poses[geom].apply(np.stack([xs.ravel(), ys.ravel(), heights], axis=1)), faces)
 
 
 def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:

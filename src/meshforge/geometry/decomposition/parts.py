@@ -1,4 +1,4 @@
-"""The parts of a surface whose boundaries are known, from names, materials or segmentations: a part for each triangle;
+"""The parts of a surface whose boundaries are known, from names or materials: a part for each triangle;
 parts that are too small, or that bound a hollow, joined with those that they touch."""
 
 from __future__ import annotations
@@ -10,15 +10,13 @@ import numpy as np
 
 from meshforge.common import join_names
 from meshforge.geometry.arrays import Bools, Floats, Ints, freeze_ints
-from meshforge.geometry.connectivity import component_roots, number_by_occurrence, weld
+from meshforge.geometry.connectivity import component_roots, weld
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes
 from meshforge.geometry.shape import volume_and_centroid
-from meshforge.geometry.surface import is_closed, neighbour_faces
+from meshforge.geometry.surface import is_closed
 
 _TINY = 1e-3  # of the diagonal of the surface: a part that reaches no farther is none
 _FEW = 2  # triangles that are no part of their own where they touch another one
-_NOISE = 0.01  # of the area of the largest patch of a part: a smaller one is noise
-_MOST_PATCHES = 2000  # that are compared with each other
 _HOLLOW = 1e-6  # of the volume of its box: below, a part encloses nothing
 
 
@@ -53,31 +51,6 @@ def stack_parts(found: Sequence[SurfaceParts]) -> SurfaceParts:
     numbers = [parts.of_face + start for parts, start in zip(found, starts, strict=False)]
     names = tuple(name for parts in found for name in parts.names)
     return SurfaceParts(np.concatenate(numbers) if numbers else np.zeros(0, dtype=np.int64), names)
-
-
-def separate_parts(vertices: Floats, faces: Ints, parts: SurfaceParts) -> SurfaceParts:
-    """Return the parts of vertices (n, 3) and faces (m, 3), each connected patch a part of the same name.
-
-    A patch of less than a hundredth of the area of the largest one of its part is noise: it joins what it touches most.
-    Where there are more than 2000 patches, the parts stay what they are.
-    """
-    corners = weld(vertices)[faces]
-    pairs = neighbour_faces(corners)
-    level = pairs[parts.of_face[pairs[:, 0]] == parts.of_face[pairs[:, 1]]]
-    patch = number_by_occurrence(component_roots(level[:, 0], level[:, 1], len(faces)))
-    count = int(patch.max(initial=-1)) + 1
-    if count > _MOST_PATCHES:
-        return parts
-    kind = parts.of_face[np.unique(patch, return_index=True)[1]]
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    areas = np.bincount(patch, np.linalg.norm(np.cross(b - a, c - a), axis=1), count)
-    largest = np.zeros(len(parts.names))
-    np.maximum.at(largest, kind, areas)
-    small = areas < _NOISE * largest[kind]
-    home = _find_homes(_count_contacts(corners, patch, count), small, np.bincount(patch, minlength=count))
-    _, patch = np.unique(home[patch], return_inverse=True)
-    kept = np.unique(home)
-    return SurfaceParts(patch.reshape(-1), tuple(parts.names[kind[k]] for k in kept.tolist()))
 
 
 def join_small_parts(

@@ -1,5 +1,5 @@
 """Routes that answer questions about assets, pictures, programs, the language, and checks of outputs; those that change
-the project: edits, undo and redo, learning, jobs, uploads; and downloads.
+the project: edits, undo and redo, learning, jobs, uploads.
 """
 
 from asyncio import wait, wrap_future
@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
 from fastapi import APIRouter, Body, Query, Request, Response
-from fastapi.responses import FileResponse
 from starlette.concurrency import run_in_threadpool
 
 from meshforge.batch import ADDED
@@ -285,16 +284,3 @@ def _check_free(home: Path, files: tuple[str, ...], ids: Collection[str]) -> Non
     taken = [name for name in files if (home / name).exists() or f"{ADDED}/{name}" in ids]
     if taken:
         raise ProjectError(f"there is a file of that name already: {join_names(taken)}", remedy="Give it another name.")
-
-
-@router.post("/api/download")
-def get_ticket(session: CurrentSession, job: BodyText) -> str:
-    """Return an address, below the studio's own, that is good for one download of what a job has made."""
-    return f"download/{session.downloads.give_ticket(job)}"
-
-
-@router.get("/download/{ticket}")
-def download(session: CurrentSession, ticket: str) -> FileResponse:
-    """Return the file itself, never shown as a page. The ticket takes the place of the token."""
-    path = session.downloads.redeem(ticket)
-    return FileResponse(path, filename=path.name, headers={"Cache-Control": "no-store"})

@@ -1,8 +1,7 @@
-"""Long work that a page asks for: decomposing, labelling, applying, checking, exporting, downloading."""
+"""Long work that a page asks for: decomposing, labelling, applying, checking, exporting."""
 
 from typing import assert_never
 
-from meshforge.studio.jobs.downloads import start_download
 from meshforge.studio.jobs.outputs import start_apply, start_check, start_export
 from meshforge.studio.jobs.preparation import start_ask, start_decompose, start_forecast, start_label, start_rebuild
 from meshforge.studio.session.session import Session
@@ -28,7 +27,5 @@ def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
             return start_ask(session, request)
         case wire.CheckJob():
             return start_check(session)
-        case wire.DownloadJob():
-            return start_download(session, request)
         case _:
             assert_never(request)

@@ -20,7 +20,16 @@ from meshforge.common import (
     replace_atomically,
     write_atomically,
 )
-from meshforge.project import NewAssetOptions, NewAssetResult, describe_new, list_new, sees_whole_family
+from meshforge.language import Program
+from meshforge.project import (
+    NewAssetOptions,
+    NewAssetResult,
+    build_run_report,
+    describe_new,
+    list_new,
+    sees_whole_family,
+    summarize_outputs,
+)
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
@@ -29,6 +38,8 @@ from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
+EXPORT_REPORT = "meshforge-report.html"
+"""The page that an export writes beside the outputs: pictures, figures, and how sure each result is."""
 _RESERVED = (*batch.OWN_FOLDERS, batch.STATE)
 
 
@@ -155,7 +166,7 @@ def start_export(session: Session, request: ExportJob) -> Job:
     if not rows:
         which = "signed off" if request.signed_only else "there"
         raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
-    edited = session.project.layout.edited
+    project, edited = session.project, session.project.layout.edited
 
     def work(progress: JobProgress) -> str:
         kept: dict[str, None] = {}
@@ -167,7 +178,12 @@ def start_export(session: Session, request: ExportJob) -> Job:
             progress.add_line(line)
             progress.advance()
         _remove_files(folder, [name for name in known if name not in kept])
-        return f"{pluralize(done, 'asset')} exported."
+        program, stop = project.program() or Program(), batch.ExecutionOptions(stop=progress.is_stopped)
+        made = build_run_report(project, program, edited, summarize_outputs(project), execution=stop)
+        with progress.stage(len(made.assets), "drawing the report") as advance:
+            options = batch.ReportOptions(progress=advance, execution=stop)
+            batch.write_report(folder / EXPORT_REPORT, made.header, made.assets, program=program, options=options)
+        return f"{pluralize(done, 'asset')} exported, with {EXPORT_REPORT}."
 
     return session.jobs.start("export", f"Exporting {pluralize(len(rows), 'asset')}", len(rows), work, str(folder))
 

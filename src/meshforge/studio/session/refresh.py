@@ -17,7 +17,7 @@ from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.project import add_session, build_card, build_project_view
-from meshforge.studio.wire.events import LabelUpdateChanged, ProjectChanged
+from meshforge.studio.wire.events import ProjectChanged
 from meshforge.studio.wire.family import Card, NewAssetsView, ProjectView
 from meshforge.studio.wire.jobs import Job
 
@@ -83,7 +83,6 @@ class Refresher:
         )
         self._report_progress()
         if self.queue.remaining == 0 or len(assets) < self.portion_size():
-            self._pages.show(LabelUpdateChanged(relabelled=self._label_changes.last_change(self.names)))
             self._pages.show(ProjectChanged(project=self._build_view(status)))
 
     def _build_view(self, status: Status) -> ProjectView:

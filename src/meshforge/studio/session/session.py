@@ -28,8 +28,8 @@ from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
-from meshforge.studio.transfers import Downloads, Uploads
-from meshforge.studio.wire.events import HistoryChanged, LabelUpdateChanged, ProgramChanged
+from meshforge.studio.transfers import Uploads
+from meshforge.studio.wire.events import HistoryChanged, ProgramChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -74,7 +74,7 @@ class Session:
         self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
         self.similar = SimilarHulls(self._drawers)
         self.checks = OutputChecks(own / "checks", self._checkers)
-        self.uploads, self.downloads = Uploads(own / "uploads"), Downloads(own / "downloads")
+        self.uploads = Uploads(own / "uploads")
         # the queue's thread must see the project that is open when it works, not the first one
         refresher = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes, self.offers)
         self.refresh_queue = refresher.queue
@@ -110,7 +110,6 @@ class Session:
         self._drawers.close()
         self._checkers.close()
         self.hub.close()
-        self.downloads.clear()
 
     # Reading
 
@@ -169,7 +168,6 @@ class Session:
     def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            self.pages.show(LabelUpdateChanged(relabelled=None))
             self.update({name for entry in entries for name in entry.names})
             self.pages.show(HistoryChanged(history=self.history.state, by=by))
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from meshforge.store.history import HistoryState
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.family import AssessmentView, Card, ProjectView
-from meshforge.studio.wire.jobs import Job, LabelUpdate
+from meshforge.studio.wire.jobs import Job
 from meshforge.studio.wire.program import LanguageView, OutcomeView, ProgramView, Reach
 from meshforge.studio.wire.start import StartView
 
@@ -38,7 +38,6 @@ class Hello(Wire):
     project: ProjectView
     cards: tuple[Card, ...]
     history: HistoryState
-    relabelled: LabelUpdate | None = None
     program: ProgramView
     language: LanguageView
     outcome: OutcomeView | None = None
@@ -74,13 +73,6 @@ class HistoryChanged(Wire):
     kind: Literal["history"] = "history"
     history: HistoryState
     by: str | None = None
-
-
-class LabelUpdateChanged(Wire):
-    """What the last edit did to all labels, sent after the cards; null as soon as there is another edit."""
-
-    kind: Literal["relabelled"] = "relabelled"
-    relabelled: LabelUpdate | None
 
 
 class AssetsChanged(Wire):
@@ -122,15 +114,7 @@ class ProgramChanged(Wire):
     program: ProgramView
 
 
-StateChanged = (
-    ProjectChanged
-    | HistoryChanged
-    | LabelUpdateChanged
-    | OutcomeChanged
-    | ReachChanged
-    | AssessmentChanged
-    | ProgramChanged
-)
+StateChanged = ProjectChanged | HistoryChanged | OutcomeChanged | ReachChanged | AssessmentChanged | ProgramChanged
 """Other values of the fields of `Hello` that have their names."""
 
 

@@ -1,15 +1,11 @@
-"""Jobs: requests, progress and outcome; what an edit of all labels did, and the model that can be asked."""
+"""Jobs: requests, progress and outcome; and the model that can be asked."""
 
 from typing import Literal
 
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
-JobKind = Literal[
-    "read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "download"
-]
-
-LabelEditKind = Literal["label-all", "label-vlm"]
+JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check"]
 
 
 class JobLine(Wire):
@@ -25,7 +21,7 @@ class Job(Wire):
     """Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
     lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
 
-    message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
+    message: its result in a sentence; out: the folder that was written.
     """
 
     id: str
@@ -103,32 +99,7 @@ class CheckJob(Wire):
     kind: Literal["check"] = "check"
 
 
-class DownloadJob(Wire):
-    """Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip."""
-
-    kind: Literal["download"] = "download"
-    what: Literal["results", "report"]
-    signed_only: bool = True
-
-
-JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob
-
-
-class AssetLabelUpdate(Wire):
-    """Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
-    was: the label that each of the changed ones had."""
-
-    asset: str
-    new: tuple[int, ...] = ()
-    changed: tuple[int, ...] = ()
-    was: tuple[str, ...] = ()
-
-
-class LabelUpdate(Wire):
-    """What the last edit did, if it changed the labels of all assets. way: its kind."""
-
-    way: LabelEditKind
-    assets: tuple[AssetLabelUpdate, ...]
+JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob
 
 
 class Model(Wire):

@@ -1,4 +1,4 @@
-// Which outputs leave the project: by the browser, or copied into a folder, and where they lie then.
+// Which outputs are copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useMemo, useState } from "react";
 import { exportTo, useJob } from "../../store/jobs";
@@ -10,7 +10,6 @@ import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
 import type { Job } from "../../wire";
-import { DownloadSection } from "./DownloadSection";
 import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
 
@@ -19,19 +18,18 @@ type What = "signed" | "all";
 export function ExportSection() {
   const job = useJob("export");
   const running = job?.state === "running";
-  const [what, setWhat] = useState<What>("signed");
   return (
     <>
       <Section title="Export">
-        {running ? <JobProgress job={job} unit="asset" /> : <Form what={what} setWhat={setWhat} />}
+        {running ? <JobProgress job={job} unit="asset" /> : <Form />}
       </Section>
       {job && !running && <Outcome job={job} />}
-      <DownloadSection signedOnly={what === "signed"} />
     </>
   );
 }
 
-function Form({ what, setWhat }: { what: What; setWhat: (what: What) => void }) {
+function Form() {
+  const [what, setWhat] = useState<What>("signed");
   const [folder, setFolder] = useState("export");
   const project = useProject((state) => state.project.folder);
   const cards = useProject((state) => state.cards);

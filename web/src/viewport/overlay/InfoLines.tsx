@@ -2,7 +2,6 @@
 import { fillOf, PALETTE } from "../../pictures/hullColors";
 import { useStage } from "../stage/context";
 import { useAlike } from "../../store/alike";
-import { useFormerLabels } from "../../store/labelChanges";
 import { useProject } from "../../store/project";
 import { type Scene, useScenes } from "../../store/scenes";
 import { lengthText, volumeText } from "../../store/units";
@@ -42,8 +41,6 @@ function PointedHull() {
 }
 
 function HullLine({ hull }: { hull: HullView }) {
-  const scene = useScenes((state) => state.scene);
-  const was = useFormerLabels(scene?.asset ?? "", scene?.view.hulls ?? NONE).get(hull.name);
   const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
   const unit = useUnit();
   const alike = useAlike((state) => (state.hull === hull.name ? state.others.length : 0));
@@ -57,7 +54,6 @@ function HullLine({ hull }: { hull: HullView }) {
         <span>
           <Swatch color={color ?? "var(--hull-unlabelled)"} fill={fillOf(hull)} /> {hull.label ?? "no part"}, {hull.look}
           {hull.look !== "given" && share}
-          {was !== undefined && `, was ${was}`}
         </span>
       )}
       <span>{volumeText(hull.volume, unit)}</span>
@@ -66,8 +62,6 @@ function HullLine({ hull }: { hull: HullView }) {
     </div>
   );
 }
-
-const NONE: readonly HullView[] = [];
 
 function Counts() {
   const scene = useScenes((state) => state.scene);

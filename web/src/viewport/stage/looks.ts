@@ -7,7 +7,6 @@ import type { ThemeColors } from "../drawing/themeColors";
 import type { Point } from "../geometry/triangles";
 import { tonesOf } from "../../pictures/hullColors";
 import { useAlike } from "../../store/alike";
-import { labelChangesOf } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import type { Scene } from "../../store/scenes";
@@ -16,12 +15,11 @@ import { useRegion } from "./regionStore";
 
 /** The looks of what is shown, and of the asset as it is in its file beside it. */
 export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance; before: Appearance } {
-  const { view, selection, hover, hidden, tool, brush } = useWorkspace.getState();
+  const { view, selection, hover, hidden, tool } = useWorkspace.getState();
   const { region } = useRegion.getState();
   const names = scene.hulls.map((hull) => hull.name);
   const going = hullsToRemove(showsPreview(tool) ? usePreview.getState().preview : null, names);
-  const relabelled = brush === null ? relabelledHulls(scene) : [];
-  const lit = new Set([...region, ...highlightedHulls(scene), ...relabelled, ...useAlike.getState().others]);
+  const lit = new Set([...region, ...highlightedHulls(scene), ...useAlike.getState().others]);
   const tone = tonesOf(scene, view.colorBy, useProject.getState().project.vocabulary);
   const shown = { tone, selection, hover, hidden, lit, going, ink, changed: changedHulls(scene) };
   return { shown, before: { ...shown, going: new Set() } };
@@ -35,12 +33,6 @@ function changedHulls({ edit }: Scene): ReadonlySet<string> | null {
   if (!edit || useWorkspace.getState().view.compare === "off") return null;
   const changed = new Set([...edit.made, ...edit.removed]);
   return changed.size ? changed : null;
-}
-
-/** The hulls to which the last edit of all labels gave another one. */
-function relabelledHulls({ asset, hulls, edit }: Scene): string[] {
-  const found = useWorkspace.getState().stage === "label" && !edit ? labelChangesOf(asset) : null;
-  return (found?.changed ?? []).flatMap((k) => hulls[k]?.name ?? []);
 }
 
 /** The hulls that a rule or an extractor points out on this asset, and what was made of them. */

@@ -4,7 +4,6 @@ import { readThemeColors, watchTheme } from "../drawing/themeColors";
 import { api } from "../../server/api";
 import { followBrush, useAlike } from "../../store/alike";
 import { hullToCut, planeOf, useCut } from "../../store/cut";
-import { watchLabelChanges } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { type Scene, sceneOf, useScenes } from "../../store/scenes";
@@ -55,7 +54,6 @@ function followStores(stage: Stage): () => void {
     useRegion.subscribe((now, before) => {
       if (now.region !== before.region) repaint();
     }),
-    watchLabelChanges(repaint),
     useAlike.subscribe(repaint),
     followBrush(),
     useCut.subscribe(() => updateCutPlane(stage)),
