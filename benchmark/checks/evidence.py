@@ -51,8 +51,8 @@ def measure(tell: Tell, quick: bool) -> Result:
         (Goal("weights that ship less those fitted, nats", "at most", 0.05, float(np.abs(weights - shipped).max())),),
         (
             f"Fitted on {len(fitted_on)} results of calibration families: a goal that holds, and failed before the "
-            f"edit, speaks for it by {weights[0]:.2f} nats, one that held before, too, by {weights[1]:.2f}. No weight is "
-            "below zero, and a goal that fails holds a result whatever else speaks for it.",
+            f"edit, speaks for it by {weights[0]:.2f} nats, one that held before, too, by {weights[1]:.2f}. No weight "
+            "is below zero, and a goal that fails holds a result whatever else speaks for it.",
             "*Held*: less sure than the threshold without goals. People as in sign-offs; the first look at which there "
             "is a program, and the fourth. Goals and criteria ask like things of other places, see above.",
         ),
