@@ -13,6 +13,7 @@ import numpy as np
 
 from meshforge import symbolic
 from meshforge.common import UsageError, join_names, pluralize, suggest_among
+from meshforge.engines.codes import find_code
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
 
 Severity = Literal["error", "warning"]
@@ -30,6 +31,7 @@ class Finding:
     """A rule that does not hold, for the hulls it names.
 
     error: engines or this program will refuse or misread the hulls; warning: allowed, but worth a look.
+    check: the name of the check that found it, empty for what every hull must be.
     """
 
     rule: str
@@ -37,10 +39,17 @@ class Finding:
     hulls: tuple[str, ...]
     message: str
     remedy: str
+    check: str = ""
+
+    @property
+    def code(self) -> str | None:
+        """The code of the rule, None for one of a plug-in."""
+        return find_code(self.rule)
 
     def __str__(self) -> str:
         """What is wrong, and on a line of its own, the remedy."""
-        return f"{self.severity}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
+        head = f"{self.severity} {self.code}" if self.code else self.severity
+        return f"{head}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,36 @@
+"""The codes of all that checks, goals and edits find, such as MF204, as `codes.toml` has them: they stay the same over
+versions, for builds that look for them. Rules of plug-ins have none."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from types import MappingProxyType
+
+
+@dataclass(frozen=True, slots=True)
+class RuleCode:
+    """A code. rules: the names of the rules that it stands for; title: what is wrong; why: it matters; remedy: what to
+    do; example: of an asset that has it."""
+
+    code: str
+    rules: tuple[str, ...]
+    title: str
+    why: str
+    remedy: str
+    example: str
+
+
+def _read_codes() -> Mapping[str, RuleCode]:
+    rows = tomllib.loads(files("meshforge.engines").joinpath("codes.toml").read_text("utf-8"))
+    return {code: RuleCode(code, tuple(row.pop("rules")), **row) for code, row in rows.items()}
+
+
+CODES = MappingProxyType(_read_codes())
+"""Every code, in order."""
+_BY_RULE = {rule: code for code, row in CODES.items() for rule in row.rules}
+
+
+def find_code(rule: str) -> str | None:
+    """Return the code of a rule, None for one of a plug-in."""
+    return _BY_RULE.get(rule)
