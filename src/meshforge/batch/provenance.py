@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from dataclasses import fields as dataclass_fields
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Literal
 
@@ -208,6 +208,14 @@ def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
     """Return the version of this program and of the plug-ins that are used, since others may write other files."""
     own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
     return ", ".join([_read_own_version(), *own])
+
+
+def find_version(package: str) -> str:
+    """Return the version of a package, empty where it is not installed."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return ""
 
 
 @cache

@@ -1,8 +1,8 @@
 """`meshforge apply`: run a program on many assets, or a project's program on its own."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -47,6 +47,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         remark(batch.describe_jobs(work.jobs))
     shown = work.project.reference_measures() if work.project else ()
     summary, started, done = batch.RunSummary(shown=shown), perf_counter(), list[batch.AssetOutcome]()
+    errors = dict[str, str | None]()  # of each asset, for builds
     run_options = batch.ApplyOptions(
         given.mass,
         given.link,
@@ -60,6 +61,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     goals = work.project.read_goals() if work.project and not given.dry_run else {}
     for failed in work.new.failed:
         summary.add(failed)
+        errors[failed.asset] = failed.error
         done.append(failed) if given.json else typer.echo(describe_failure(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
@@ -68,6 +70,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
                 work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
             ):
                 summary.add(outcome)
+                errors[outcome.asset] = outcome.error if isinstance(outcome, batch.Failed) else None
                 if given.json:
                     done.append(outcome)
                 else:
@@ -79,8 +82,8 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     if not given.dry_run:
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    goal_lines, rows, goals_fail = _try_goals(given, work, goals) if goals else ([], {}, False)
-    _print_lines(done, alarms, work.describe_result_statuses() if done else {}, rows)
+    tried = _try_goals(given, work, goals) if goals else _TriedGoals()
+    _print_lines(done, alarms, work.describe_result_statuses() if done else {}, tried.rows)
     if work.new.prepared:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
 
@@ -97,32 +100,51 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
-        for line in goal_lines:
+        for line in tried.lines:
             typer.echo(line)
     for text in summary.describe_absent_labels(work.program):
         remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
     outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
+    if given.sarif or given.junit:
+        paths = {job.id: job.path for job in work.jobs}
+        edits = [
+            batch.make_edit_case(
+                asset, paths.get(asset, Path(asset)), error, alarms.get(asset, ()), is_known=asset not in outliers
+            )
+            for asset, error in errors.items()
+        ]
+        batch.write_build_files(given.sarif, given.junit, "apply", [*edits, *tried.cases])
     if outliers:
         remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
-    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or goals_fail)
+    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or tried.have_failed)
 
 
-def _try_goals(
-    given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
-) -> tuple[list[str], dict[str, dict[str, Any]], bool]:
-    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, and whether one fails."""
+@dataclass(frozen=True, slots=True)
+class _TriedGoals:
+    """What came of the goals of a project. rows: JSON by asset."""
+
+    lines: Sequence[str] = ()
+    rows: Mapping[str, dict[str, Any]] = field(default_factory=dict)
+    have_failed: bool = False
+    cases: Sequence[batch.CheckCase] = ()
+
+
+def _try_goals(given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]) -> _TriedGoals:
+    """What comes of the goals of a project on its own assets."""
     from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
 
-    assert work.project
+    project = work.project
+    assert project
     with progress(len(work.jobs), "trying goals") as advance:
         execution = replace(given.execution.to_options(), progress=advance, timeout=batch.GOAL_EXECUTION.timeout)
-        found = list(work.project.try_goals(goals, execution=execution))
-    return (
+        found = list(project.try_goals(goals, execution=execution))
+    return _TriedGoals(
         describe_goals(goals, found),
         {one.asset: {"goals": list_rows(one)} for one in found},
         have_failed(goals, found),
+        [case for one in found for case in batch.list_goal_cases(project.path(one.asset), one)],
     )
 
 

@@ -2,10 +2,14 @@
 `engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
 test holds the two together."""
 
+from __future__ import annotations
+
+import os
 import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
+from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
 
@@ -45,6 +49,10 @@ class Finding:
     def code(self) -> str | None:
         """The code of the rule, None for one of a plug-in."""
         return find_code(self.rule)
+
+    def relate_to(self, folder: Path) -> Finding:
+        """Return the same on every machine: paths in its message count from a folder."""
+        return replace(self, message=self.message.replace(f"{folder}{os.sep}", ""))
 
     def __str__(self) -> str:
         """What is wrong, and on a line of its own, the remedy."""
