@@ -1,8 +1,8 @@
 """`meshforge apply`: run a program on many assets, or a project's program on its own."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -82,8 +82,8 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     if not given.dry_run:
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    tried = _try_goals(given, work, goals) if goals else _TriedGoals()
-    _print_lines(done, alarms, work.describe_result_statuses() if done else {}, tried.rows)
+    goal_lines, rows, goals_fail, cases = _try_goals(given, work, goals) if goals else ([], {}, False, [])
+    _print_lines(done, alarms, work.describe_result_statuses() if done else {}, rows)
     if work.new.prepared:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
 
@@ -100,7 +100,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
-        for line in tried.lines:
+        for line in goal_lines:
             typer.echo(line)
     for text in summary.describe_absent_labels(work.program):
         remark(text)
@@ -109,30 +109,23 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
     if given.sarif or given.junit:
         paths = {job.id: job.path for job in work.jobs}
-        edits = [
-            batch.make_edit_case(
-                asset, paths.get(asset, Path(asset)), error, alarms.get(asset, ()), is_known=asset not in outliers
-            )
-            for asset, error in errors.items()
-        ]
-        batch.write_build_files(given.sarif, given.junit, "apply", [*edits, *tried.cases])
+        for asset, error in errors.items():
+            is_known, own = asset not in outliers, alarms.get(asset, ())
+            cases.append(batch.make_edit_case(asset, paths.get(asset, Path(asset)), error, own, is_known=is_known))
+        for one in work.need_review:
+            path = paths.get(one.asset, Path(one.asset))
+            cases.append(batch.CheckCase(one.asset, path, "edit", skipped=one.describe()))
+        batch.write_build_files(given.sarif, given.junit, "apply", cases)
     if outliers:
         remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
-    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or tried.have_failed)
+    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or goals_fail)
 
 
-@dataclass(frozen=True, slots=True)
-class _TriedGoals:
-    """What came of the goals of a project. rows: JSON by asset."""
-
-    lines: Sequence[str] = ()
-    rows: Mapping[str, dict[str, Any]] = field(default_factory=dict)
-    have_failed: bool = False
-    cases: Sequence[batch.CheckCase] = ()
-
-
-def _try_goals(given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]) -> _TriedGoals:
-    """What comes of the goals of a project on its own assets."""
+def _try_goals(
+    given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
+) -> tuple[list[str], dict[str, dict[str, Any]], bool, list[batch.CheckCase]]:
+    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, whether one fails, and
+    cases for builds."""
     from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
 
     project = work.project
@@ -140,7 +133,7 @@ def _try_goals(given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
     with progress(len(work.jobs), "trying goals") as advance:
         execution = replace(given.execution.to_options(), progress=advance, timeout=batch.GOAL_EXECUTION.timeout)
         found = list(project.try_goals(goals, execution=execution))
-    return _TriedGoals(
+    return (
         describe_goals(goals, found),
         {one.asset: {"goals": list_rows(one)} for one in found},
         have_failed(goals, found),

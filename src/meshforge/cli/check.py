@@ -98,15 +98,10 @@ def check(given: CheckArguments) -> None:
     _refuse_stray_options(given, measures)
     known = batch.Baseline.read(given.baseline, new=given.update_baseline) if given.baseline else None
     task = batch.CheckTask(
-        measures,
-        given.out,
-        given.tolerance,
-        given.max_vertices,
-        given.overwrite,
-        given.against,
-        given.pictures,
-        known.folder if known else None,
+        measures, given.out, given.tolerance, given.max_vertices, given.overwrite, given.against, given.pictures
     )
+    if known:
+        task = replace(task, digests_from=known.folder)
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
         remark(batch.describe_jobs(jobs))
@@ -180,12 +175,9 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
         (finding,) = outcome.findings
         known = "known, " * bool(outcome.accepted)
         return f"{path}: cannot be read ({known}{finding.code})\n  " + finding.message.replace("\n", "\n  ")
-    if outcome.is_unchanged and not found.findings:
-        return f"{path}: nothing was found before, unchanged since, not checked again"
     lines = [*_describe_work(outcome)]
     if not found.findings and len(lines) == bool(found.loaded):  # nothing else to say
         return f"{path}: legal{f' ({found.loaded.description})' if found.loaded else ''}"
-    lines += ["unchanged, not checked again"] * outcome.is_unchanged
     texts = [f"{'known ' * (finding in outcome.accepted)}{finding}" for finding in found.findings]
     lines += [line for text in texts for line in text.split("\n")]
     return "\n  ".join([f"{path}:", *lines])
