@@ -18,7 +18,7 @@ from script.structure import read_modules
 from tests.unit.cli.in_process import Run
 
 RULES = {rule for row in CODES.values() for rule in row.rules}
-BY_NAME = {
+BY_NAME: dict[str, set[str]] = {
     "limits:f'{engine.name}-{limit.rule}'": {f"{e.name}-{limit.rule}" for e in ENGINES.values() for limit in e.limits},
     "mechanism:f'physics-{rule}'": {f"physics-{rule}" for rule in MASSES},
     "legality:fault": set(FAULTS),
