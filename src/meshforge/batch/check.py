@@ -71,7 +71,7 @@ class CheckOutcome:
     def findings(self) -> tuple[Finding, ...]:
         """What was found, also that it could not be read."""
         if self.examination is None:
-            return (Finding("unreadable", "error", (), self.error or "", ""),)
+            return (Finding("unreadable", "error", (), self.error or "", "", "read"),)
         return self.examination.findings
 
     @property
@@ -81,8 +81,7 @@ class CheckOutcome:
 
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
-        found = self.examination.findings if self.examination else ()
-        rows = [{"code": one.code, **asdict(one), "known": one in self.accepted} for one in found]
+        rows = [{"code": one.code, **asdict(one), "known": one in self.accepted} for one in self.findings]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
         if self.is_unchanged:
             line["unchanged"] = True

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from meshforge.common import UsageError, suggest_name
-from meshforge.engines.codes import CODES, RuleCode
+from meshforge.engines.codes import CODES
 
 
 def explain(
@@ -22,16 +22,5 @@ def explain(
     if found is None:
         near = suggest_name(code.upper(), CODES) or suggest_name(code, by_name, "")
         raise UsageError(f"there is no code or rule {code!r}", remedy=f"{near} All: meshforge explain".lstrip())
-    typer.echo(_describe_code(found))
-
-
-def _describe_code(row: RuleCode) -> str:
-    return "\n".join(
-        [
-            f"{row.code}: {row.title}",
-            f"  rule{'s' * (len(row.rules) > 1)}: {', '.join(row.rules)}",
-            f"  why: {row.why}",
-            f"  what to do: {row.remedy}",
-            f"  example: {row.example}",
-        ]
-    )
+    typer.echo(f"{found.code}: {found.title}\n  rules: {', '.join(found.rules)}\n  why: {found.why}")
+    typer.echo(f"  what to do: {found.remedy}\n  example: {found.example}")

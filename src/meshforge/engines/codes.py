@@ -2,7 +2,6 @@
 versions, for builds that look for them. Rules of plug-ins have none."""
 
 import tomllib
-from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from types import MappingProxyType
@@ -21,12 +20,8 @@ class RuleCode:
     example: str
 
 
-def _read_codes() -> Mapping[str, RuleCode]:
-    rows = tomllib.loads(files("meshforge.engines").joinpath("codes.toml").read_text("utf-8"))
-    return {code: RuleCode(code, tuple(row.pop("rules")), **row) for code, row in rows.items()}
-
-
-CODES = MappingProxyType(_read_codes())
+_ROWS = tomllib.loads(files("meshforge.engines").joinpath("codes.toml").read_text("utf-8"))
+CODES = MappingProxyType({code: RuleCode(code, tuple(row.pop("rules")), **row) for code, row in _ROWS.items()})
 """Every code, in order."""
 _BY_RULE = {rule: code for code, row in CODES.items() for rule in row.rules}
 

@@ -35,7 +35,7 @@ class Finding:
     """A rule that does not hold, for the hulls it names.
 
     error: engines or this program will refuse or misread the hulls; warning: allowed, but worth a look.
-    check: the name of the check that found it, empty for what every hull must be.
+    check: the name of the check that found it.
     """
 
     rule: str
@@ -43,7 +43,7 @@ class Finding:
     hulls: tuple[str, ...]
     message: str
     remedy: str
-    check: str = ""
+    check: str = "legality"
 
     @property
     def code(self) -> str | None:

@@ -39,6 +39,10 @@ class CheckCase:
         """The errors that no baseline has."""
         return tuple(one for one in self.findings if one.severity == "error" and one not in self.accepted)
 
+    def locate(self, base: Path) -> str:
+        """Return the path of the asset from a folder."""
+        return relative_name(plain_path(self.path), base)
+
 
 def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]) -> Iterator[CheckCase]:
     """Yield a case for each check of an asset, legality first; one alone where it could not be read."""
@@ -47,13 +51,13 @@ def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]
         yield CheckCase(job.id, job.path, "read", outcome.findings, outcome.accepted)
         return
     physics = found.get("physics", Physics)
-    for name in ("", *checks):
+    for name in ("legality", *checks):
         findings = tuple(one for one in found.findings if one.check == name)
         untried = [one.message for one in findings if one.rule.endswith(_UNTRIED)]
         still = [f"not simulated: {physics.refused}"] if name == "physics" and physics and not physics.rest else []
         reasons = [*untried, *filter(None, [found.unmeasured.get(name)]), *still]
         skipped = _UNCHANGED if outcome.is_unchanged else "; ".join(reasons)
-        yield CheckCase(job.id, job.path, name or "legality", findings, outcome.accepted, skipped)
+        yield CheckCase(job.id, job.path, name, findings, outcome.accepted, skipped)
 
 
 def list_goal_cases(path: Path, found: AssetGoals) -> Iterator[CheckCase]:
@@ -90,17 +94,21 @@ def write_build_files(sarif: Path | None, junit: Path | None, name: str, cases: 
         write_atomically(junit, _to_junit(name, cases, base))
 
 
-def _to_sarif(name: str, cases: Iterable[CheckCase], base: Path) -> dict[str, Any]:
+def _to_sarif(name: str, cases: Sequence[CheckCase], base: Path) -> dict[str, Any]:
     found = [(case, finding) for case in cases for finding in case.findings]
     others = sorted({one.rule for _, one in found if one.code is None})
     rules = [*map(_to_rule, CODES.values()), *({"id": rule} for rule in others)]
     places = {rule["id"]: place for place, rule in enumerate(rules)}
     driver = {"name": "MeshForge", "version": software_version(), "rules": rules}
+    results = [_to_result(case, finding, base, places) for case, finding in found]
+    if any(case.accepted for case in cases):  # else there is nothing that they were compared with
+        for (case, finding), result in zip(found, results, strict=True):
+            result["baselineState"] = "unchanged" if finding in case.accepted else "new"
     run = {
         "tool": {"driver": driver},
         "automationDetails": {"id": f"meshforge-{name}/"},
         "columnKind": "unicodeCodePoints",
-        "results": [_to_result(case, finding, base, places) for case, finding in found],
+        "results": results,
     }
     return {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
 
@@ -122,7 +130,7 @@ def _to_result(case: CheckCase, finding: Finding, base: Path, places: dict[str, 
     names = "\n".join(hulls or [message])
     digest = text_digest("\n".join([escape_text(case.asset), case.check, finding.rule, names]))
     physical = {
-        "artifactLocation": {"uri": _to_uri(case.path, base), "uriBaseId": "%SRCROOT%"},
+        "artifactLocation": {"uri": quote(to_text(case.locate(base))), "uriBaseId": "%SRCROOT%"},
         "region": {"startLine": 1},  # a hull has no line, and GitHub shows no result without one
     }
     logical = [{"name": hull, "fullyQualifiedName": hull, "kind": "object"} for hull in hulls]
@@ -133,13 +141,8 @@ def _to_result(case: CheckCase, finding: Finding, base: Path, places: dict[str, 
         "message": {"text": escape_text("\n".join(filter(None, [message, finding.remedy])))},
         "locations": [{"physicalLocation": physical} | ({"logicalLocations": logical} if logical else {})],
         "partialFingerprints": {"primaryLocationLineHash": f"{digest}:1"},
-        "baselineState": "unchanged" if finding in case.accepted else "new",
         "properties": {"rule": finding.rule, "check": case.check},
     }
-
-
-def _to_uri(path: Path, base: Path) -> str:
-    return quote(to_text(relative_name(plain_path(path), base)))
 
 
 def _to_junit(name: str, cases: Sequence[CheckCase], base: Path) -> bytes:
@@ -149,9 +152,8 @@ def _to_junit(name: str, cases: Sequence[CheckCase], base: Path) -> bytes:
     counts["skipped"] = str(sum(not case.errors and bool(_describe_skip(case)) for case in cases))
     suite = ElementTree.SubElement(suites, "testsuite", {"name": f"meshforge {name}"} | counts)
     for case in cases:
-        place = escape_text(relative_name(plain_path(case.path), base))
-        about = {"classname": escape_text(case.asset), "name": escape_text(case.check), "file": place}
-        line = ElementTree.SubElement(suite, "testcase", about)
+        about = {"classname": case.asset, "name": case.check, "file": case.locate(base)}
+        line = ElementTree.SubElement(suite, "testcase", {key: escape_text(text) for key, text in about.items()})
         shown = escape_text("\n".join(str(one.relate_to(base)) for one in case.findings))
         if case.errors:
             first = case.errors[0].relate_to(base)
