@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from meshforge.batch.check import CheckOutcome, CheckTask
 from meshforge.batch.jobs import AssetJob
@@ -21,8 +21,6 @@ _REMEDY = "Write one: meshforge check ASSETS... --baseline FILE --update-baselin
 class BaselineEntry(BaseModel):
     """What was found of one asset. files: the digest of each of its files, by its path from the folder of the baseline;
     None where it is to be checked again in any case; settings: the digest of what was asked for, and of versions."""
-
-    model_config = ConfigDict(frozen=True)
 
     files: dict[str, str] | None
     settings: str

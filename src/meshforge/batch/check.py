@@ -25,7 +25,7 @@ from meshforge.common import AssetError, MeshForgeError, UsageError, describe_er
 from meshforge.engines import Finding, find_engine
 from meshforge.formats import MujocoLoad, format_of, labels_beside, load, output_path_of, save, try_in_mujoco
 from meshforge.rendering import write_png
-from meshforge.symbolic import Asset, SymbolicMesh, write_labels
+from meshforge.symbolic import SymbolicMesh, write_labels
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,15 +111,12 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
         found = examine_file(written or path, mesh, task.measures, before)
         found = found.add_notes(mesh.asset.notes if mesh.asset else ())
         drawn = _draw_pictures(mesh, found, asset_id(path, base), task.pictures)
-        return CheckOutcome(path, None, found, fixed, written, drawn, _digest_files(path, mesh.asset, task))
+        digests = None
+        if task.digests_from and mesh.asset and not mesh.asset.missing:  # what is missing may come unseen
+            digests = asset_digests(path, mesh.asset.files, task.digests_from)
+        return CheckOutcome(path, None, found, fixed, written, drawn, digests)
     except MeshForgeError as problem:
         return CheckOutcome(path, problem.message)
-
-
-def _digest_files(path: Path, asset: Asset | None, task: CheckTask) -> dict[str, str] | None:
-    if task.digests_from is None or asset is None or asset.missing:  # what is missing may come without a trace
-        return None
-    return asset_digests(path, asset.files, task.digests_from)
 
 
 def check_assets(work: Sequence[AssetJob], task: CheckTask, execution: ExecutionOptions) -> Iterator[CheckOutcome]:

@@ -128,16 +128,15 @@ def _try_goals(
     cases for builds."""
     from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
 
-    project = work.project
-    assert project
+    assert work.project
     with progress(len(work.jobs), "trying goals") as advance:
         execution = replace(given.execution.to_options(), progress=advance, timeout=batch.GOAL_EXECUTION.timeout)
-        found = list(project.try_goals(goals, execution=execution))
+        found = list(work.project.try_goals(goals, execution=execution))
     return (
         describe_goals(goals, found),
         {one.asset: {"goals": list_rows(one)} for one in found},
         have_failed(goals, found),
-        [case for one in found for case in batch.list_goal_cases(project.path(one.asset), one)],
+        [case for one in found for case in batch.list_goal_cases(work.project.path(one.asset), one)],
     )
 
 

@@ -73,13 +73,8 @@ class CheckArguments:
     report: options.ReportPath = None
     sarif: options.SarifPath = None
     junit: options.JunitPath = None
-    baseline: Annotated[
-        Path | None,
-        typer.Option("--baseline", help="What was found before: unchanged assets are not checked again."),
-    ] = None
-    update_baseline: Annotated[
-        bool, typer.Option("--update-baseline", help="Write what is found to the file of --baseline.")
-    ] = False
+    baseline: Annotated[Path | None, typer.Option("--baseline", help="What is known: only new errors fail.")] = None
+    update_baseline: Annotated[bool, typer.Option("--update-baseline", help="Write what is found to it.")] = False
     labels: options.LabelsPath = None
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False

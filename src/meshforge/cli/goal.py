@@ -15,7 +15,7 @@ from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
-from meshforge.engines import find_code
+from meshforge.engines import CODES_BY_RULE
 from meshforge.project import Project
 
 _USAGES = "; ".join(kind.usage() for kind in GOALS.built_in.values())
@@ -140,7 +140,7 @@ def list_rows(one: AssetGoals) -> list[dict[str, Any]]:
             "goal": result.goal,
             "before": one.before[name].outcome if name in one.before else None,
             "now": result.outcome,
-            "code": find_code(f"goal-{result.outcome}"),
+            "code": CODES_BY_RULE.get(f"goal-{result.outcome}"),
             "why": result.why,
             "hulls": list(result.hulls),
             "picture": str(one.pictures[name]) if name in one.pictures else None,

@@ -23,9 +23,5 @@ class RuleCode:
 _ROWS = tomllib.loads(files("meshforge.engines").joinpath("codes.toml").read_text("utf-8"))
 CODES = MappingProxyType({code: RuleCode(code, tuple(row.pop("rules")), **row) for code, row in _ROWS.items()})
 """Every code, in order."""
-_BY_RULE = {rule: code for code, row in CODES.items() for rule in row.rules}
-
-
-def find_code(rule: str) -> str | None:
-    """Return the code of a rule, None for one of a plug-in."""
-    return _BY_RULE.get(rule)
+CODES_BY_RULE = MappingProxyType({rule: code for code, row in CODES.items() for rule in row.rules})
+"""The code of each rule; those of plug-ins have none."""

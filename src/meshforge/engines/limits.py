@@ -2,8 +2,6 @@
 `engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
 test holds the two together."""
 
-from __future__ import annotations
-
 import os
 import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -17,7 +15,7 @@ import numpy as np
 
 from meshforge import symbolic
 from meshforge.common import UsageError, join_names, pluralize, suggest_among
-from meshforge.engines.codes import find_code
+from meshforge.engines.codes import CODES_BY_RULE
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
 
 Severity = Literal["error", "warning"]
@@ -48,9 +46,9 @@ class Finding:
     @property
     def code(self) -> str | None:
         """The code of the rule, None for one of a plug-in."""
-        return find_code(self.rule)
+        return CODES_BY_RULE.get(self.rule)
 
-    def relate_to(self, folder: Path) -> Finding:
+    def relate_to(self, folder: Path) -> "Finding":
         """Return the same on every machine: paths in its message count from a folder."""
         return replace(self, message=self.message.replace(f"{folder}{os.sep}", ""))
 

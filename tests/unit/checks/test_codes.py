@@ -12,7 +12,7 @@ import pytest
 from meshforge.checks.goals.base import GoalOutcome
 from meshforge.checks.legality import _REMEDIES as FAULTS
 from meshforge.checks.physics.mechanism import _REMEDIES as MASSES
-from meshforge.engines import CODES, ENGINES, find_code
+from meshforge.engines import CODES, ENGINES
 from script.codes import PAGE, write_page
 from script.structure import read_modules
 from tests.unit.cli.in_process import Run
@@ -53,15 +53,8 @@ def test_every_rule_has_a_code_and_every_code_is_of_rules_that_are_found() -> No
     found = set[str]().union(*(rules_of(*place) for place in find_rules()))
     assert found - RULES == set(), "without a code"
     assert RULES - found == set(), "in codes.toml, and nowhere found"
-    assert sum(len(row.rules) for row in CODES.values()) == len(RULES), "two codes for one rule"
-
-
-def test_codes_are_in_order_and_in_their_groups() -> None:
     assert list(CODES) == sorted(CODES) and all(re.fullmatch(r"MF[1-6]\d\d", code) for code in CODES)
-    groups = {rule: code[2] for code, row in CODES.items() for rule in row.rules}
-    assert {groups[rule] for rule in groups if rule.startswith(tuple(ENGINES))} == {"2"}
-    assert {groups[rule] for rule in groups if rule.startswith("physics-")} == {"4"}
-    assert all(text.endswith(".") for row in CODES.values() for text in (row.why, row.remedy, row.example))
+    assert sum(len(row.rules) for row in CODES.values()) == len(RULES), "two codes for one rule"
 
 
 def test_the_page_is_that_of_the_table() -> None:
@@ -87,4 +80,3 @@ def test_without_a_code_all_are_listed_and_an_unknown_one_names_the_nearest(run:
     for name, near in (("MF2O4", "MF204"), ("shape-gaps", "shape-gap")):
         done = run("explain", name)
         assert (done.code, done.out) == (2, "") and f"Did you mean {near!r}?" in done.err
-    assert find_code("few-hulls") is None

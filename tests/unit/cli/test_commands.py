@@ -319,6 +319,8 @@ def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
         ("decompose row.obj", "nothing says what to write"),
         ("decompose row.obj -o h.obj --json", "--json says nothing without --advise"),
         ("decompose row.obj --advise --by parts", "--by does not go with --advise"),
+        ("check row.obj --update-baseline", "--update-baseline says nothing without --baseline"),
+        ("check row.obj --baseline b --max-vertices 9 --fix --out o", "--baseline does not go with --fix"),
         ("decompose row.obj --advise --classes a,b", "--classes says nothing without --labels FILE"),
         ("decompose row.obj -o h.obj --labels row.points.npz", "--labels says nothing without --by labels"),
         ("decompose row.obj -o h.obj --by parts --align box", "--align says nothing without --by labels"),

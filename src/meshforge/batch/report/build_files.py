@@ -39,6 +39,12 @@ class CheckCase:
         """The errors that no baseline has."""
         return tuple(one for one in self.findings if one.severity == "error" and one not in self.accepted)
 
+    @property
+    def reason(self) -> str:
+        """Why it has neither passed nor failed, empty where it has."""
+        known = [f"known: {one.message}" for one in self.findings if one.severity == "error"]
+        return "" if self.errors else "; ".join(filter(None, [self.skipped, *known]))
+
     def locate(self, base: Path) -> str:
         """Return the path of the asset from a folder."""
         return relative_name(plain_path(self.path), base)
@@ -55,9 +61,8 @@ def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]
         findings = tuple(one for one in found.findings if one.check == name)
         untried = [one.message for one in findings if one.rule.endswith(_UNTRIED)]
         still = [f"not simulated: {physics.refused}"] if name == "physics" and physics and not physics.rest else []
-        reasons = [*untried, *filter(None, [found.unmeasured.get(name)]), *still]
-        skipped = _UNCHANGED if outcome.is_unchanged else "; ".join(reasons)
-        yield CheckCase(job.id, job.path, name, findings, outcome.accepted, skipped)
+        reasons = [_UNCHANGED] if outcome.is_unchanged else [*untried, *still, found.unmeasured.get(name, "")]
+        yield CheckCase(job.id, job.path, name, findings, outcome.accepted, "; ".join(filter(None, reasons)))
 
 
 def list_goal_cases(path: Path, found: AssetGoals) -> Iterator[CheckCase]:
@@ -83,11 +88,9 @@ def make_edit_case(
 
 
 def write_build_files(sarif: Path | None, junit: Path | None, name: str, cases: Sequence[CheckCase]) -> None:
-    """Write what is asked for; name: of the command. Paths in the files count from here, where a build begins, or from
-    the common folder of assets that lie elsewhere."""
-    here, paths = Path.cwd(), [plain_path(case.path) for case in cases]
-    inside = all(path.is_relative_to(here) for path in paths)
-    base = here if inside else common_folder([path.parent for path in paths])
+    """Write what is asked for; name: of the command. Paths in the files count from here, where a build begins, or where
+    assets lie elsewhere, from the folder that holds both."""
+    base = common_folder([Path.cwd(), *(plain_path(case.path) for case in cases)])
     if sarif:
         write_atomically(sarif, json.dumps(_to_sarif(name, cases, base), indent=1) + "\n")
     if junit:
@@ -104,12 +107,7 @@ def _to_sarif(name: str, cases: Sequence[CheckCase], base: Path) -> dict[str, An
     if any(case.accepted for case in cases):  # else there is nothing that they were compared with
         for (case, finding), result in zip(found, results, strict=True):
             result["baselineState"] = "unchanged" if finding in case.accepted else "new"
-    run = {
-        "tool": {"driver": driver},
-        "automationDetails": {"id": f"meshforge-{name}/"},
-        "columnKind": "unicodeCodePoints",
-        "results": results,
-    }
+    run = {"tool": {"driver": driver}, "automationDetails": {"id": f"meshforge-{name}/"}, "results": results}
     return {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
 
 
@@ -146,10 +144,9 @@ def _to_result(case: CheckCase, finding: Finding, base: Path, places: dict[str, 
 
 
 def _to_junit(name: str, cases: Sequence[CheckCase], base: Path) -> bytes:
-    failed = sum(bool(case.errors) for case in cases)
-    counts = {"tests": str(len(cases)), "failures": str(failed), "errors": "0"}
-    suites = ElementTree.Element("testsuites", counts)
-    counts["skipped"] = str(sum(not case.errors and bool(_describe_skip(case)) for case in cases))
+    failed, skipped = sum(bool(case.errors) for case in cases), sum(bool(case.reason) for case in cases)
+    counts = {"tests": str(len(cases)), "failures": str(failed), "errors": "0", "skipped": str(skipped)}
+    suites = ElementTree.Element("testsuites")
     suite = ElementTree.SubElement(suites, "testsuite", {"name": f"meshforge {name}"} | counts)
     for case in cases:
         about = {"classname": case.asset, "name": case.check, "file": case.locate(base)}
@@ -159,15 +156,9 @@ def _to_junit(name: str, cases: Sequence[CheckCase], base: Path) -> bytes:
             first = case.errors[0].relate_to(base)
             about = {"message": escape_text(first.message), "type": first.code or first.rule}
             ElementTree.SubElement(line, "failure", about).text = shown
-        elif skipped := _describe_skip(case):
-            ElementTree.SubElement(line, "skipped", {"message": escape_text(skipped)})
+        elif case.reason:
+            ElementTree.SubElement(line, "skipped", {"message": escape_text(case.reason)})
         if shown and not case.errors:
             ElementTree.SubElement(line, "system-out").text = shown
     ElementTree.indent(suites)
     return bytes(ElementTree.tostring(suites, encoding="utf-8", xml_declaration=True)) + b"\n"
-
-
-def _describe_skip(case: CheckCase) -> str:
-    """Why a case is neither passed nor failed."""
-    known = [f"known: {one.message}" for one in case.findings if one.severity == "error" and one in case.accepted]
-    return "; ".join(filter(None, [case.skipped, *known]))
