@@ -19,6 +19,7 @@ import yaml
 from meshforge.engines import CODES
 from meshforge.geometry import convex_hull
 from meshforge.project import Project
+from tests.loop.readme import commands, read_blocks
 from tests.unit.batch.families import obj, table_boxes, write_table, write_urdf_table
 from tests.unit.cli.in_process import Run
 from tests.unit.project.tables import learned
@@ -245,6 +246,20 @@ def run_action(results: Path, **inputs: str) -> dict[str, int]:
         assert done.returncode in (0, 1), done.stderr
         codes[step["id"]] = done.returncode
     return codes
+
+
+@pytest.mark.slow
+def test_the_page_of_builds_holds(run: Run) -> None:
+    page = ROOT / "docs/builds.md"
+    done = [run(*words) for words in commands("", page)]
+    assert [one.code for one in done] == [0] * len(done), done[-1].err
+    assert "12 assets, 0 with new errors, " in done[3].out and done[3].out.endswith("12 not checked again\n")
+    workflow, hooks = map(yaml.safe_load, read_blocks("yaml", page))
+    inputs = yaml.safe_load((ROOT / "action.yml").read_text("utf-8"))["inputs"]
+    assert workflow["jobs"]["check"]["steps"][1]["with"].keys() <= inputs.keys()
+    assert all(f"`{name}`" in page.read_text("utf-8") for name in inputs)
+    known = {one["id"] for one in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))}
+    assert {one["id"] for one in hooks["repos"][0]["hooks"]} == known
 
 
 @pytest.mark.slow
