@@ -2,6 +2,7 @@
 errors fail a build."""
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -63,11 +64,13 @@ class Baseline:
         found = {}
         for job in jobs if task.against is None else ():
             entry = self.entries.get(self._key(job))
-            if entry is None or entry.files is None or entry.settings != _digest_settings(job, task):
+            if entry is None or not entry.files:
                 continue
-            if has_same_files(entry.files, job.path, self.folder):
-                kept = Examination(entry.findings)
-                found[job.id] = CheckOutcome(job.path, None, kept, digests=entry.files, is_unchanged=True)
+            with suppress(OSError):  # what cannot be read is checked, which says so
+                is_as_asked = entry.settings == _digest_settings(job, task)
+                if is_as_asked and has_same_files(entry.files, job.path, self.folder):
+                    kept = Examination(entry.findings)
+                    found[job.id] = CheckOutcome(job.path, None, kept, digests=entry.files, is_unchanged=True)
         return found
 
     def compare(self, job: AssetJob, outcome: CheckOutcome) -> CheckOutcome:
@@ -84,7 +87,7 @@ class Baseline:
         for job, outcome in done:
             files = None if outcome.digests is None else dict(outcome.digests)
             findings = tuple(one.relate_to(self.folder) for one in outcome.findings)
-            settings = _digest_settings(job, task)
+            settings = _digest_settings(job, task) if files else ""
             entries[self._key(job)] = BaselineEntry(files=files, settings=settings, findings=findings)
         text = _BaselineFile(assets=dict(sorted(entries.items()))).model_dump_json(indent=1)
         write_atomically(self.path, text + "\n")
