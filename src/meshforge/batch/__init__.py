@@ -6,6 +6,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "baseline": "Baseline",
         "check": "ENGINES_TO_ASK CheckOutcome CheckTask check_asset check_assets examine_file",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
@@ -33,6 +34,7 @@ __getattr__, __all__ = export_lazily(
             "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
+        "report.build_files": "CheckCase list_check_cases list_goal_cases make_edit_case write_build_files",
         "report.contents": "MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",

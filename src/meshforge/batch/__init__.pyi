@@ -1,4 +1,5 @@
 # Written by `python -m script.stubs`.
+from meshforge.batch.baseline import Baseline as Baseline
 from meshforge.batch.check import ENGINES_TO_ASK as ENGINES_TO_ASK
 from meshforge.batch.check import CheckOutcome as CheckOutcome
 from meshforge.batch.check import CheckTask as CheckTask
@@ -79,6 +80,11 @@ from meshforge.batch.provenance import stamp_path as stamp_path
 from meshforge.batch.provenance import template_digests as template_digests
 from meshforge.batch.provenance import text_digest as text_digest
 from meshforge.batch.provenance import value_digest as value_digest
+from meshforge.batch.report.build_files import CheckCase as CheckCase
+from meshforge.batch.report.build_files import list_check_cases as list_check_cases
+from meshforge.batch.report.build_files import list_goal_cases as list_goal_cases
+from meshforge.batch.report.build_files import make_edit_case as make_edit_case
+from meshforge.batch.report.build_files import write_build_files as write_build_files
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
 from meshforge.batch.report.contents import ReportStatus as ReportStatus

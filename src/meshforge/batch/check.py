@@ -4,7 +4,7 @@ installed here are asked themselves: what MuJoCo, or PyBullet, says of a file.""
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
@@ -17,11 +17,12 @@ from typing import Any
 from meshforge.batch.discovery import asset_id
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
+from meshforge.batch.provenance import asset_digests
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, EngineLoad, Examination, FixResult, draw_examination, examine_mesh, fix
 from meshforge.checks.base import Given
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path, quote_path
-from meshforge.engines import find_engine
+from meshforge.engines import Finding, find_engine
 from meshforge.formats import MujocoLoad, format_of, labels_beside, load, output_path_of, save, try_in_mujoco
 from meshforge.rendering import write_png
 from meshforge.symbolic import SymbolicMesh, write_labels
@@ -34,6 +35,7 @@ class CheckTask:
     out: the folder for fixed assets, None where nothing is to be fixed; tolerance: how far a fixed hull may stick out
     [m], None for the default of `fix`; max_vertices: the most vertices that a fixed hull may have.
     against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
+    digests_from: the folder from which the paths in digests of files count, None where no digests are wanted.
     """
 
     measures: CheckOptions
@@ -43,13 +45,16 @@ class CheckTask:
     overwrite: bool = False
     against: Path | None = None
     pictures: Path | None = None
+    digests_from: Path | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CheckOutcome:
     """What was found of one asset; error: the whole message where it could not be read, or not be written.
 
-    output: the file of the fixed asset; pictures: the files of pictures.
+    output: the file of the fixed asset; pictures: the files of pictures; digests: of all files of the asset, if wanted,
+    None where one is missing, or not known; accepted: findings that a baseline has; is_unchanged: since the baseline,
+    so that it was not checked again.
     """
 
     path: Path
@@ -58,17 +63,28 @@ class CheckOutcome:
     fix_result: FixResult | None = None
     output: Path | None = None
     pictures: tuple[Path, ...] = ()
+    digests: Mapping[str, str] | None = None
+    accepted: frozenset[Finding] = frozenset()
+    is_unchanged: bool = False
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What was found, also that it could not be read."""
+        if self.examination is None:
+            return (Finding("unreadable", "error", (), self.error or "", "", "read"),)
+        return self.examination.findings
 
     @property
     def has_failed(self) -> bool:
-        """Whether there is an error."""
-        return self.examination is None or self.examination.has_failed
+        """Whether there is an error that no baseline has."""
+        return any(one.severity == "error" and one not in self.accepted for one in self.findings)
 
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
-        found = self.examination.findings if self.examination else ()
-        rows = [{**asdict(finding), "hulls": list(finding.hulls)} for finding in found]
+        rows = [{"code": one.code, **asdict(one), "known": one in self.accepted} for one in self.findings]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
+        if self.is_unchanged:
+            line["unchanged"] = True
         if self.fix_result:
             line["fixed"] = {"out": str(self.output)} | self.fix_result.to_json()
         if self.examination:
@@ -95,7 +111,10 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
         found = examine_file(written or path, mesh, task.measures, before)
         found = found.add_notes(mesh.asset.notes if mesh.asset else ())
         drawn = _draw_pictures(mesh, found, asset_id(path, base), task.pictures)
-        return CheckOutcome(path, None, found, fixed, written, drawn)
+        digests = None
+        if task.digests_from and mesh.asset and not mesh.asset.missing:  # what is missing may come unseen
+            digests = asset_digests(path, mesh.asset.files, task.digests_from)
+        return CheckOutcome(path, None, found, fixed, written, drawn, digests)
     except MeshForgeError as problem:
         return CheckOutcome(path, problem.message)
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, partial
-from importlib.metadata import PackageNotFoundError, version
+from functools import cached_property, partial
 from pathlib import Path
 
 from pydantic import BaseModel, ValidationError
@@ -134,7 +133,7 @@ def _digest_goal(goal: Goal, program: Program, inputs: provenance.OutputInputs, 
     if not edited:
         made |= {"program": "", "templates": {}, "manual_edits": None, "selections": None}
     frame = [str(program.orient), program.contact, program.extremity]
-    software = [provenance.software_version([goal.plugin]), _engine()]
+    software = [provenance.software_version([goal.plugin]), provenance.find_version("mujoco")]
     return provenance.value_digest([_FORM, made, frame, str(goal), software])
 
 
@@ -236,14 +235,6 @@ def _read_kept(path: Path) -> dict[str, _ResultRecord]:
         return _ResultFile.model_validate_json(path.read_bytes()).results
     except (OSError, ValidationError):
         return {}
-
-
-@cache
-def _engine() -> str:
-    try:
-        return version("mujoco")
-    except PackageNotFoundError:
-        return ""
 
 
 def _draw_failure(result: GoalResult, subject: GoalSubject, path: Path) -> None:

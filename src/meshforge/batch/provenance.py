@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from dataclasses import fields as dataclass_fields
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Literal
 
@@ -207,12 +207,16 @@ def source_files(path: Path) -> list[Path]:
 def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
     """Return the version of this program and of the plug-ins that are used, since others may write other files."""
     own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
-    return ", ".join([_read_own_version(), *own])
+    return ", ".join([find_version("meshforge"), *own])
 
 
 @cache
-def _read_own_version() -> str:
-    return version("meshforge")  # reading it takes half a millisecond, and each output asks
+def find_version(package: str) -> str:
+    """Return the version of a package, empty where it is not installed."""
+    try:
+        return version(package)  # reading it takes half a millisecond, and each asset asks
+    except PackageNotFoundError:
+        return ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,11 +69,13 @@ class CheckOptions:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Examination:
-    """What was found of a mesh; measures: by their keys in JSON, in the order in which they are described."""
+    """What was found of a mesh; measures: by their keys in JSON, in the order in which they are described; unmeasured:
+    what a check could not measure, by its name."""
 
     findings: tuple[Finding, ...]
     measures: Mapping[str, Measure] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    unmeasured: Mapping[str, str] = field(default_factory=dict)
 
     def get(self, key: str, kind: type[MeasureKind]) -> MeasureKind | None:
         """Return a measure, None where it was not asked for or could not be measured."""
@@ -87,9 +89,8 @@ class Examination:
 
     def add_engine_load(self, loaded: EngineLoad) -> Examination:
         """Return the same with what an engine itself said."""
-        return replace(
-            self, findings=(*loaded.findings, *self.findings), measures={**self.measures, ENGINE_LOAD: loaded}
-        )
+        findings = (replace(finding, check=loaded.engine) for finding in loaded.findings)
+        return replace(self, findings=(*findings, *self.findings), measures={**self.measures, ENGINE_LOAD: loaded})
 
     def add_notes(self, notes: Iterable[str]) -> Examination:
         """Return the same with more notes, but for what its trial has said in a finding."""
@@ -131,7 +132,9 @@ def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh 
     results = list(run_checks(wanted.names, subject))
     findings = (*subject.legality[1], *(finding for one in results for finding in one.findings))
     measures = {key: measure for one in results for key, measure in one.measures.items()}
-    return Examination(findings, measures, tuple(dict.fromkeys(note for one in results for note in one.notes)))
+    notes = tuple(dict.fromkeys(note for one in results for note in one.notes))
+    unmeasured = {name: "; ".join(one.notes) for name, one in zip(wanted.names, results, strict=True) if one.notes}
+    return Examination(findings, measures, notes, unmeasured)
 
 
 def check(mesh: SymbolicMesh, engine: str | None = None) -> tuple[Finding, ...]:
@@ -191,7 +194,7 @@ def run_checks(names: Sequence[str], subject: CheckSubject) -> Iterator[CheckFin
         try:
             yield _run_check(name, subject)
         except PluginError as error:
-            yield CheckFindings((Finding(name, "error", (), error.problem, error.remedy or ""),))
+            yield CheckFindings((Finding(name, "error", (), error.problem, error.remedy or "", name),))
 
 
 def _run_check(name: str, subject: CheckSubject) -> CheckFindings:
@@ -201,4 +204,7 @@ def _run_check(name: str, subject: CheckSubject) -> CheckFindings:
         wrong = next((one for one in result.findings if not isinstance(one, Finding)), None)
         if plugin and wrong is not None:
             raise plugin.error(f"found a {type(wrong).__name__}, not a Finding")
-        return result
+        own = next((one.rule for one in result.findings if plugin and one.code), None)
+        if plugin and own is not None:
+            raise plugin.error(f"calls a rule {own!r}, which MeshForge has itself", remedy="Give it another name.")
+        return replace(result, findings=tuple(replace(one, check=name) for one in result.findings))

@@ -47,6 +47,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         remark(batch.describe_jobs(work.jobs))
     shown = work.project.reference_measures() if work.project else ()
     summary, started, done = batch.RunSummary(shown=shown), perf_counter(), list[batch.AssetOutcome]()
+    errors = dict[str, str | None]()  # of each asset, for builds
     run_options = batch.ApplyOptions(
         given.mass,
         given.link,
@@ -60,6 +61,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     goals = work.project.read_goals() if work.project and not given.dry_run else {}
     for failed in work.new.failed:
         summary.add(failed)
+        errors[failed.asset] = failed.error
         done.append(failed) if given.json else typer.echo(describe_failure(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
@@ -68,6 +70,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
                 work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
             ):
                 summary.add(outcome)
+                errors[outcome.asset] = outcome.error if isinstance(outcome, batch.Failed) else None
                 if given.json:
                     done.append(outcome)
                 else:
@@ -76,7 +79,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         _print_lines(done, summary.find_alarms(), {}, {})
         raise
     alarms = summary.find_alarms()
-    goal_lines, rows, goals_fail = _try_goals(given, work, goals) if goals else ([], {}, False)
+    goal_lines, rows, goals_fail, cases = _try_goals(given, work, goals) if goals else ([], {}, False, [])
     if not given.dry_run:
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
@@ -104,6 +107,15 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
     outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
+    if given.sarif or given.junit:
+        paths = {job.id: job.path for job in work.jobs}
+        for asset, error in errors.items():
+            is_known, own = asset not in outliers, alarms.get(asset, ())
+            cases.append(batch.make_edit_case(asset, paths.get(asset, Path(asset)), error, own, is_known=is_known))
+        for one in work.need_review:
+            path = paths.get(one.asset, Path(one.asset))
+            cases.append(batch.CheckCase(one.asset, path, "edit", skipped=one.describe()))
+        batch.write_build_files(given.sarif, given.junit, "apply", cases)
     if outliers:
         remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
     return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers) or goals_fail)
@@ -111,8 +123,9 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
 
 def _try_goals(
     given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
-) -> tuple[list[str], dict[str, dict[str, Any]], bool]:
-    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, and whether one fails."""
+) -> tuple[list[str], dict[str, dict[str, Any]], bool, list[batch.CheckCase]]:
+    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, whether one fails, and
+    cases for builds."""
     from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
 
     assert work.project
@@ -124,6 +137,7 @@ def _try_goals(
         describe_goals(goals, found, accepted),
         {one.asset: {"goals": list_rows(one)} for one in found},
         have_failed(goals, found, accepted=accepted),
+        [case for one in found for case in batch.list_goal_cases(work.project.path(one.asset), one)],
     )
 
 

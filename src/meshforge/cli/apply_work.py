@@ -51,6 +51,8 @@ class ApplyArguments:
     dry_run: options.DryRun = False
     again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
     report: options.ReportPath = None
+    sarif: options.SarifPath = None
+    junit: options.JunitPath = None
     check: Annotated[
         list[str] | None,
         typer.Option(

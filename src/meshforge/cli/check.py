@@ -71,6 +71,10 @@ class CheckArguments:
     max_vertices: options.MaxVertices = None
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
     report: options.ReportPath = None
+    sarif: options.SarifPath = None
+    junit: options.JunitPath = None
+    baseline: Annotated[Path | None, typer.Option("--baseline", help="What is known: only new errors fail.")] = None
+    update_baseline: Annotated[bool, typer.Option("--update-baseline", help="Write what is found to it.")] = False
     labels: options.LabelsPath = None
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
@@ -81,41 +85,59 @@ def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
-    file cannot be read.
+    file cannot be read, with --baseline only where that is not in the file. meshforge explain CODE says what a finding
+    means.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
     measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)
     _refuse_stray_options(given, measures)
+    known = batch.Baseline.read(given.baseline, new=given.update_baseline) if given.baseline else None
     task = batch.CheckTask(
         measures, given.out, given.tolerance, given.max_vertices, given.overwrite, given.against, given.pictures
     )
+    if known:
+        task = replace(task, digests_from=known.folder)
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
         remark(batch.describe_jobs(jobs))
+    unchanged = known.find_unchanged(jobs, task) if known else {}
+    fresh = [job for job in jobs if job.id not in unchanged]
     # of one asset, starting a process would take longer than the work
     isolated = measures.is_costly or given.engine in batch.ENGINES_TO_ASK  # an engine may crash
     is_bounded = given.execution.timeout is not None or given.execution.memory is not None
-    in_process = len(jobs) == 1 and not isolated and not is_bounded
+    in_process = len(fresh) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
-    failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
+    page, started = CheckReport() if given.report else None, perf_counter()
+    done, failed, accepted = [], 0, 0
     log = NoteLog(len(jobs) > 2)
-    with progress(len(jobs), "checking") as advance:
-        for job, outcome in zip(
-            jobs, batch.check_assets(jobs, task, replace(execution, progress=advance)), strict=True
-        ):
+    with progress(len(fresh), "checking") as advance:
+        results = batch.check_assets(fresh, task, replace(execution, progress=advance))
+        for job in jobs:
+            outcome = unchanged.get(job.id) or next(results)
+            outcome = known.compare(job, outcome) if known else outcome
             failed += outcome.has_failed
+            accepted += len(outcome.accepted)
+            if known or given.sarif or given.junit:
+                done.append((job, outcome))
             if page:
                 page.add(job, outcome)
             if given.json:
                 print_json(outcome.to_json(), compact=True)
             else:
                 typer.echo(_number_notes(log, job.id, _describe_check(outcome)))
+        next(results, None)  # ends its workers
     log.print_repeated()
-    if not given.json and len(jobs) > _FEW:
-        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
+    if not given.json and (len(jobs) > _FEW or known):
+        before = f", {pluralize(accepted, 'finding')} known, {len(unchanged):,} not checked again" if known else ""
+        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with {'new ' * bool(known)}errors{before}")
     if given.report and page:
         name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
         page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)
+    if given.sarif or given.junit:
+        cases = [case for job, outcome in done for case in batch.list_check_cases(job, outcome, measures.names)]
+        batch.write_build_files(given.sarif, given.junit, "check", cases)
+    if known and given.update_baseline:
+        known.write(done, task)
     raise typer.Exit(int(failed > 0))
 
 
@@ -123,6 +145,10 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
     if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
+    if not given.baseline:
+        options.refuse_options(given.context, ("update_baseline",), "--baseline")
+    if given.fix:
+        options.refuse_with(given.context, ("baseline",), "--fix")
     if not given.fix:
         options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices"), "--fix")
     if not any(check.has_cells for check in measures.checks):
@@ -141,11 +167,14 @@ def _number_notes(log: NoteLog, asset: str, text: str) -> str:
 def _describe_check(outcome: batch.CheckOutcome) -> str:
     path, found = escape_name(str(outcome.path)), outcome.examination
     if found is None:
-        return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
+        (finding,) = outcome.findings
+        known = "known, " * bool(outcome.accepted)
+        return f"{path}: cannot be read ({known}{finding.code})\n  " + finding.message.replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
     if not found.findings and len(lines) == bool(found.loaded):  # nothing else to say
         return f"{path}: legal{f' ({found.loaded.description})' if found.loaded else ''}"
-    lines += [line for finding in found.findings for line in str(finding).split("\n")]
+    texts = [f"{'known ' * (finding in outcome.accepted)}{finding}" for finding in found.findings]
+    lines += [line for text in texts for line in text.split("\n")]
     return "\n  ".join([f"{path}:", *lines])
 
 

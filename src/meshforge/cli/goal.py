@@ -9,13 +9,14 @@ from typing import Annotated, Any
 
 import typer
 
-from meshforge.batch import GOAL_EXECUTION, AssetGoals
+from meshforge.batch import GOAL_EXECUTION, AssetGoals, list_goal_cases, write_build_files
 from meshforge.checks.goals.base import Goal
 from meshforge.checks.goals.registry import GOALS, parse_goal
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
+from meshforge.engines import CODES_BY_RULE
 from meshforge.project import Project
 
 NONE_ACCEPTED: Mapping[str, Collection[str]] = MappingProxyType({})
@@ -36,6 +37,8 @@ class GoalArguments:
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where a goal could not be tried.")] = False
     again: Annotated[bool, typer.Option("--again", help="Try also what was tried before.")] = False
     pictures: Annotated[Path | None, typer.Option("--pictures", help="Folder for pictures of failures.")] = None
+    sarif: options.SarifPath = None
+    junit: options.JunitPath = None
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
@@ -70,6 +73,8 @@ def goal(given: GoalArguments) -> None:
         found = list(project.try_goals(goals, again=given.again, execution=run))
     if given.pictures:
         _copy_pictures(found, given.pictures)
+    cases = [case for one in found for case in list_goal_cases(project.path(one.asset), one)]
+    write_build_files(given.sarif, given.junit, "goal", cases)
     if given.json:
         print_json([{"asset": one.asset, "error": one.error, "goals": list_rows(one)} for one in found])
     else:
@@ -153,6 +158,7 @@ def list_rows(one: AssetGoals) -> list[dict[str, Any]]:
             "goal": result.goal,
             "before": one.before[name].outcome if name in one.before else None,
             "now": result.outcome,
+            "code": CODES_BY_RULE.get(f"goal-{result.outcome}"),
             "why": result.why,
             "hulls": list(result.hulls),
             "picture": str(one.pictures[name]) if name in one.pictures else None,

@@ -34,6 +34,7 @@ COMMANDS = {
     "apply": "Run a program on assets",
     "goal": "Try what assets must do, such as to stand or to be gripped, before and after the program",
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
+    "explain": "Explain a finding by its code or rule, with why it matters, what to do and an example",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
     "select": "List the hulls that an extractor selects, in the frame the asset comes in",
     "render": "Draw an asset as a PNG or JPEG, one colour a hull or a label",

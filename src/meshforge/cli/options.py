@@ -38,6 +38,8 @@ DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done,
 ReportPath = Annotated[
     Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")
 ]
+SarifPath = Annotated[Path | None, typer.Option("--sarif", help="A file of findings for code scanning (SARIF).")]
+JunitPath = Annotated[Path | None, typer.Option("--junit", help="A file of results as test cases (JUnit XML).")]
 Backend = Annotated[
     Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
 ]

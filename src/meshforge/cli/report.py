@@ -88,6 +88,9 @@ def _to_line(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:
 def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
     """Return what was fixed, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
+    if examined.is_unchanged:
+        then = "" if examined.findings else "; nothing was found then"
+        return (f"unchanged since the baseline, not checked again{then}",)
     if fixed is None:
         return ()
     return (

@@ -1,4 +1,7 @@
 # Written by `python -m script.stubs`.
+from meshforge.engines.codes import CODES as CODES
+from meshforge.engines.codes import CODES_BY_RULE as CODES_BY_RULE
+from meshforge.engines.codes import RuleCode as RuleCode
 from meshforge.engines.limits import ENGINES as ENGINES
 from meshforge.engines.limits import Engine as Engine
 from meshforge.engines.limits import Finding as Finding

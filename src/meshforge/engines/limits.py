@@ -2,10 +2,12 @@
 `engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
 test holds the two together."""
 
+import os
 import tomllib
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
+from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
 
@@ -13,6 +15,7 @@ import numpy as np
 
 from meshforge import symbolic
 from meshforge.common import UsageError, join_names, pluralize, suggest_among
+from meshforge.engines.codes import CODES_BY_RULE
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
 
 Severity = Literal["error", "warning"]
@@ -30,6 +33,7 @@ class Finding:
     """A rule that does not hold, for the hulls it names.
 
     error: engines or this program will refuse or misread the hulls; warning: allowed, but worth a look.
+    check: the name of the check that found it.
     """
 
     rule: str
@@ -37,10 +41,21 @@ class Finding:
     hulls: tuple[str, ...]
     message: str
     remedy: str
+    check: str = "legality"
+
+    @property
+    def code(self) -> str | None:
+        """The code of the rule, None for one of a plug-in."""
+        return CODES_BY_RULE.get(self.rule)
+
+    def relate_to(self, folder: Path) -> "Finding":
+        """Return the same on every machine: paths in its message count from a folder."""
+        return replace(self, message=self.message.replace(f"{folder}{os.sep}", ""))
 
     def __str__(self) -> str:
         """What is wrong, and on a line of its own, the remedy."""
-        return f"{self.severity}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
+        head = f"{self.severity} {self.code}" if self.code else self.severity
+        return f"{head}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
 
 
 @dataclass(frozen=True, slots=True)

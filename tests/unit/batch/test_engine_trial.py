@@ -67,8 +67,8 @@ def test_a_file_that_mujoco_refuses_is_an_error_in_its_own_words(name: str, tmp_
     assert said
     told = run("check", "cup.xml", "--engine", "mujoco", "--timeout", "60")
     assert told.code == 1 and "legal" not in told.out
-    (line,) = [line for line in told.out.splitlines() if "error:" in line]
-    begin = f"  error: MuJoCo {mujoco.__version__} refuses cup.xml: "
+    (line,) = [line for line in told.out.splitlines() if line.startswith("  error ")]
+    begin = f"  error MF220: MuJoCo {mujoco.__version__} refuses cup.xml: "
     assert line.startswith(begin) and words(line.removeprefix(begin)) == words(said)
     plain = run("check", "cup.xml")
     assert "legal" not in plain.out and "note: MuJoCo refuses this file" in plain.out

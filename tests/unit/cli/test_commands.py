@@ -280,6 +280,8 @@ def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
         ("new p row.obj --workers 1", "--workers says nothing without --decompose METHOD"),
         ("check row.obj --engine quake", "quake"),
         ("decompose row.obj", "nothing says what to write"),
+        ("check row.obj --update-baseline", "--update-baseline says nothing without --baseline"),
+        ("check row.obj --baseline b --max-vertices 9 --fix --out o", "--baseline does not go with --fix"),
         ("decompose row.obj -o h.obj --set treshold=0.1", "threshold=0.05"),
         ("convert row.obj", "there is nothing to write to"),
         ("convert row.obj t.obj out", "several assets and no format"),

@@ -105,7 +105,7 @@ def test_the_command_fails_and_says_what_to_do(run: Run, tmp_path: Path) -> None
     path = write_nodes(tmp_path / "gate.glb", {"Gate": box(), "UCX_Fence_00": box()})
     done = run("check", str(path), "--engine", "unreal")
     assert done.code == 1
-    assert "error: UCX_Fence_00: no mesh is called Fence, so that in Unreal nothing collides by it" in done.out
+    assert "error MF212: UCX_Fence_00: no mesh is called Fence, so that in Unreal nothing collides by it" in done.out
     assert "The nearest mesh is Gate: call it UCX_Gate_00." in done.out
 
 

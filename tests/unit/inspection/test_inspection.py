@@ -54,7 +54,7 @@ def test_check_prints_each_finding_with_its_remedy() -> None:
     found = mf.check(mf.SymbolicMesh((flat,)))
     assert found.has_failed
     first = found.findings[0]
-    assert str(found).startswith(f"error: {first.message}\n  {first.remedy}")
+    assert str(found).startswith(f"error {first.code}: {first.message}\n  {first.remedy}")
 
 
 def test_check_against_the_asset_before_measures_what_the_edit_closed(path: Path) -> None:

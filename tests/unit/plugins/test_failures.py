@@ -286,11 +286,13 @@ def test_a_labeller_that_sees_the_family_takes_the_road_of_those_built_in(run: R
     assert (outcome.taken, project.mesh("table.obj").hull_of("top").source) == (6, "plugin")
 
 
-@pytest.mark.parametrize("body", [*RAISES, "return ['odd']"])
+@pytest.mark.parametrize("body", [*RAISES, "return ['odd']", "return [Finding('flat', 'error', (), 'odd', '')]"])
 def test_a_check_that_fails_is_an_error_among_the_findings(run: Run, install: Install, body: str) -> None:
     package = install("checks", "odd", broken.HEAD + broken.CHECK.format(body=body))
     (finding,) = examine_mesh(load("table.obj"), CheckOptions.of(["odd"])).findings
-    assert (finding.rule, finding.severity) == ("odd", "error")
+    assert (finding.rule, finding.severity, finding.code) == ("odd", "error", None)
+    assert run("check", "table.obj", "--check", "odd", "--sarif", "s.sarif").code == 1
+    assert json.loads(Path("s.sarif").read_text())["runs"][0]["results"][0]["ruleId"] == "odd"
     assert finding.message.startswith(f"the check odd of the package {package} ")
 
 
