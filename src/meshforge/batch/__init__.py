@@ -35,7 +35,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "report.contents": "MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
         "report.outcomes": "choose_outcomes compare_outcomes",
-        "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",
+        "report.page": "ReportHeader ReportOptions write_report",
         "workers": (
             "EXECUTION_DEFAULTS IN_PROCESS TIMEOUT ExecutionOptions WorkerFailure count_processors "
             "raise_if_stopped run_isolated"
