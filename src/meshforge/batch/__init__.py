@@ -37,7 +37,7 @@ __getattr__, __all__ = export_lazily(
         "report.build_files": "CheckCase list_check_cases list_goal_cases make_edit_case write_build_files",
         "report.contents": "MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
         "report.outcomes": "choose_outcomes compare_outcomes",
-        "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",
+        "report.page": "ReportHeader ReportOptions write_report",
         "workers": (
             "EXECUTION_DEFAULTS IN_PROCESS TIMEOUT ExecutionOptions WorkerFailure count_processors "
             "raise_if_stopped run_isolated"

@@ -93,8 +93,6 @@ from meshforge.batch.report.contents import read_again as read_again
 from meshforge.batch.report.contents import read_job as read_job
 from meshforge.batch.report.outcomes import choose_outcomes as choose_outcomes
 from meshforge.batch.report.outcomes import compare_outcomes as compare_outcomes
-from meshforge.batch.report.page import MOST_PICTURED as MOST_PICTURED
-from meshforge.batch.report.page import REPORT_DEFAULTS as REPORT_DEFAULTS
 from meshforge.batch.report.page import ReportHeader as ReportHeader
 from meshforge.batch.report.page import ReportOptions as ReportOptions
 from meshforge.batch.report.page import write_report as write_report

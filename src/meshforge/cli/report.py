@@ -3,7 +3,7 @@ need not be kept for that."""
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -23,11 +23,10 @@ def write_report_page(
     header: batch.ReportHeader,
     assets: Sequence[batch.ReportAsset],
     program: Program | None = None,
-    options: batch.ReportOptions = batch.REPORT_DEFAULTS,
 ) -> None:
     """Write a report with a progress bar on stderr, and say where it is."""
     with progress(len(assets), "drawing") as advance:
-        batch.write_report(path, header, assets, program=program, options=replace(options, progress=advance))
+        batch.write_report(path, header, assets, program=program, options=batch.ReportOptions(progress=advance))
     remark(f"report: {escape_name(str(path))}")
 
 

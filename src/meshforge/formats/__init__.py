@@ -8,7 +8,7 @@ __getattr__, __all__ = export_lazily(
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
         "engine_names": "EngineName MarkName",
-        "mesh_input": "DecomposeBy decompose from_trimesh read_surface",
+        "mesh_input": "DecomposeBy decompose from_trimesh",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
         "mjcf.compiler": "MujocoLoad try_in_mujoco",

@@ -16,7 +16,6 @@ from meshforge.formats.engine_names import MarkName as MarkName
 from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
 from meshforge.formats.mesh_input import decompose as decompose
 from meshforge.formats.mesh_input import from_trimesh as from_trimesh
-from meshforge.formats.mesh_input import read_surface as read_surface
 from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface

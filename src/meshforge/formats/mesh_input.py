@@ -118,7 +118,7 @@ def decompose(
     """
     if by not in get_args(DecomposeBy):
         raise UsageError(f"{by!r} is none of {', '.join(get_args(DecomposeBy))}", where="by")
-    path, surface = read_surface(mesh)
+    path, surface = _read_surface(mesh)
     notes: list[str] = []
     engine, known = settings or geometry.CoacdSettings(), surface.parts
     folder = geometry.cache_folder() if cache else None
@@ -146,8 +146,8 @@ def decompose(
     return SymbolicMesh.of(Asset(path, "decomposition", (body,), geoms, Document(), notes=tuple(notes)))
 
 
-def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Surface]:
-    """Return the triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
+def _read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Surface]:
+    """The triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
     surfaces: Sequence[RawSurface]
     if isinstance(mesh, str | os.PathLike):
         path, surfaces = Path(mesh), mesh_reader.read_triangles(Path(mesh))

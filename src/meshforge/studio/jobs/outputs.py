@@ -169,6 +169,7 @@ def start_export(session: Session, request: ExportJob) -> Job:
     project, edited = session.project, session.project.layout.edited
 
     def work(progress: JobProgress) -> str:
+        (folder / EXPORT_REPORT).unlink(missing_ok=True)  # it is of the export before
         kept: dict[str, None] = {}
         done = 0
         for card in rows:
