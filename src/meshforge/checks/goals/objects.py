@@ -1,11 +1,13 @@
 """Goals on things that are put somewhere: on a surface, into a room, through an opening."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from meshforge.checks.goals import rooms
-from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Floats
@@ -19,9 +21,11 @@ from meshforge.language import (
     Share,
     WordArgument,
 )
+from meshforge.symbolic import Hull
 
 _SHAPES, _PROBES = ("box", "sphere", "cylinder"), ("box", "sphere")
 _MIDDLE = 0.4  # of each side of a surface, that things are put within on both sides of its middle
+_KEPT = 0.5  # of a room or an opening before the edit, from which on it counts as it is after it
 _LOW = 0.2  # of the height of a part, by which a spot may lie lower than its top
 
 
@@ -76,7 +80,8 @@ class Contains(Goal):
 
         places = dict[str, Place]()
         for number, part in enumerate(subject.select_parts(self.holder), 1):
-            room = rooms.find_room(part.hulls, part.lower(subject.surfaces))
+            find = partial(rooms.find_room, surfaces=part.lower(subject.surfaces))
+            room = _find_place(subject, self.holder, part, find)
             if room is None:
                 continue
             if too_large := _find_excess(self.size, room.size, "room", f"room {number}"):
@@ -107,7 +112,8 @@ class Passes(Goal):
         ways = dict[str, Place]()
         for number, part in enumerate(subject.select_parts(self.opening), 1):
             axes = range(3) if self.way is None else [int(np.abs(part.turn.T @ subject.turn_axis(self.way)).argmax())]
-            found = [one for one in (rooms.find_way(part.hulls, axis) for axis in axes) if one]
+            ways_along = (_find_place(subject, self.opening, part, partial(rooms.find_way, axis=axis)) for axis in axes)
+            found = [one for one in ways_along if one]
             if not found:
                 continue
             way = max(found, key=lambda one: float(one.size[1] * one.size[2]))
@@ -118,6 +124,18 @@ class Passes(Goal):
         if not ways:
             raise NotApplicableError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
         return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]
+
+
+def _find_place(
+    subject: GoalSubject, extractor: Extractor, part: Part, find: Callable[[Sequence[Hull]], Place | None]
+) -> Place | None:
+    """What `find` finds in a part: after the edit, unless that is much less than before it."""
+    before, hulls = find(part.hulls), part.lower_hulls(subject.select_after(extractor))
+    low, high = part.box.min - subject.touching, part.box.max + subject.touching
+    near = [hull for hull in hulls if (low <= hull.shape.centroid).all() and (hull.shape.centroid <= high).all()]
+    after = find(near) if near else None
+    is_kept = after and (before is None or np.prod(after.size) >= _KEPT * np.prod(before.size))
+    return after if is_kept else before
 
 
 def _measure(size: float | Share, whole: float) -> float:
