@@ -52,16 +52,14 @@ class CheckCase:
 
 def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]) -> Iterator[CheckCase]:
     """Yield a case for each check of an asset, legality first; one alone where it could not be read."""
-    found = outcome.examination
-    if found is None:
-        yield CheckCase(job.id, job.path, "read", outcome.findings, outcome.accepted)
-        return
-    physics = found.get("physics", Physics)
-    for name in ("legality", *checks):
-        findings = tuple(one for one in found.findings if one.check == name)
+    examined = outcome.examination
+    physics = examined.get("physics", Physics) if examined else None
+    for name in ("legality", *checks) if examined else ("read",):
+        findings = tuple(one for one in outcome.findings if one.check == name)
         untried = [one.message for one in findings if one.rule.endswith(_UNTRIED)]
         still = [f"not simulated: {physics.refused}"] if name == "physics" and physics and not physics.rest else []
-        reasons = [_UNCHANGED] if outcome.is_unchanged else [*untried, *still, found.unmeasured.get(name, "")]
+        reasons = [*untried, *still, examined.unmeasured.get(name, "") if examined else ""]
+        reasons = [_UNCHANGED] if outcome.is_unchanged else reasons
         yield CheckCase(job.id, job.path, name, findings, outcome.accepted, "; ".join(filter(None, reasons)))
 
 
