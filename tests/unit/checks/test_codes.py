@@ -77,6 +77,6 @@ def test_a_code_or_a_rule_is_explained(run: Run, name: str) -> None:
 
 def test_without_a_code_all_are_listed_and_an_unknown_one_names_the_nearest(run: Run) -> None:
     assert [line.split()[0] for line in run("explain").out.splitlines()] == list(CODES)
-    for name, near in (("MF2O4", "MF204"), ("shape-gaps", "shape-gap")):
+    for name, near in (("MF-204", "MF204"), ("shape-gaps", "shape-gap")):
         done = run("explain", name)
         assert (done.code, done.out) == (2, "") and f"Did you mean {near!r}?" in done.err
