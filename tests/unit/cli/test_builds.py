@@ -83,7 +83,10 @@ def read_junit(path: str | Path) -> dict[tuple[str, str], str]:
         assert Path(case.attrib["file"]).exists() or "\\x" in case.attrib["file"]
     states = list(found.values())
     counts = (len(suite), states.count("failure"), states.count("skipped"))
-    assert tuple(int(suite.attrib[name]) for name in ("tests", "failures", "skipped")) == counts
+    assert (
+        len(found) == len(suite)
+        and tuple(int(suite.attrib[name]) for name in ("tests", "failures", "skipped")) == counts
+    )
     return found
 
 
@@ -175,7 +178,8 @@ def test_a_baseline_holds_on_another_machine_until_any_file_of_an_asset_changes(
     assert done.out.endswith("2 assets, 0 with new errors, 1 finding known, 1 not checked again\n")
     mesh = Path("there/assets/meshes/crumb.obj")
     mesh.write_text(mesh.read_text() + "# changed\n")
-    assert run(*words).out.endswith("0 not checked again\n")
+    assert run(*words, "--junit", "j.xml").out.endswith("0 not checked again\n")
+    assert '<skipped message="known: there/assets/odd.urdf' in Path("j.xml").read_text()
 
 
 ENVIRONMENT = {
