@@ -58,9 +58,8 @@ def read_sarif(path: str | Path) -> list[dict[str, Any]]:
     (made,) = log["runs"]
     driver = made["tool"]["driver"]
     assert driver["name"] == "MeshForge" and made["automationDetails"]["id"].endswith("/")
-    ids = [rule["id"] for rule in driver["rules"]]
-    assert ids[: len(CODES)] == list(CODES) and len(set(ids)) == len(ids)
-    assert all(rule["shortDescription"]["text"] and rule["help"]["text"] for rule in driver["rules"][: len(CODES)])
+    ids = [rule["id"] for rule in driver["rules"] if rule["shortDescription"]["text"] and rule["help"]["text"]]
+    assert ids == list(CODES)
     for result in made["results"]:
         assert ids[result["ruleIndex"]] == result["ruleId"] and result["level"] in ("error", "warning", "note")
         assert result["message"]["text"]
@@ -193,16 +192,11 @@ def call(*words: str, env: dict[str, str] | None = None) -> subprocess.Completed
     return subprocess.run(words, env=os.environ | ENVIRONMENT | (env or {}), capture_output=True, text=True)
 
 
-def commit() -> None:
-    who = ("-c", "user.name=a", "-c", "user.email=a@b.c")
-    call("git", "add", "-A")
-    assert call("git", *who, "commit", "-q", "-m", "change").returncode == 0
-
-
 @pytest.fixture
 def repository(project: Project) -> Project:
-    assert call("git", "init", "-q").returncode == 0
-    commit()
+    who = ("-c", "user.name=a", "-c", "user.email=a@b.c")
+    for words in (("init", "-q"), ("add", "-A"), (*who, "commit", "-q", "-m", "assets")):
+        assert call("git", *words).returncode == 0
     return project
 
 
@@ -271,7 +265,6 @@ def test_the_action_fails_until_the_family_is_corrected(repository: Project, tmp
     inputs = {"paths": "assets/table0\nassets/table2\n", "engine": "unity", "options": "--timeout 60\n--workers 1"}
     assert run_action(tmp_path / "first", project="tables", **inputs) == {"check": 0, "project": 0}
     break_table()
-    commit()
     assert run_action(tmp_path / "second", project="tables", **inputs) == {"check": 1, "project": 1}
     made = {path.name: path for path in (tmp_path / "second/meshforge").iterdir()}
     assert made.keys() == {f"{step}.{kind}" for step in ("check", "project") for kind in ("sarif", "xml", "html")}
@@ -282,6 +275,5 @@ def test_the_action_fails_until_the_family_is_corrected(repository: Project, tmp
     assert call("meshforge", *words).returncode == 1
     assert run_action(tmp_path / "third", baseline="known.json", **inputs) == {"check": 0}
     correct_table()
-    commit()
     assert run_action(tmp_path / "fourth", project="tables", **inputs) == {"check": 0, "project": 0}
     assert call("git", "status", "--porcelain", "--", "assets").stdout == ""
