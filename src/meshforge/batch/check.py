@@ -81,7 +81,10 @@ class CheckOutcome:
 
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
-        rows = [{"code": one.code, **asdict(one), "known": one in self.accepted} for one in self.findings]
+        rows = [
+            {"code": one.code, **asdict(one), "hulls": list(one.hulls), "known": one in self.accepted}
+            for one in self.findings
+        ]
         line: dict[str, Any] = {"asset": str(self.path), "error": self.error, "findings": rows}
         if self.is_unchanged:
             line["unchanged"] = True

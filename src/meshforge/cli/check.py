@@ -149,7 +149,7 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
         options.refuse_options(given.context, ("update_baseline",), "--baseline")
     if given.fix:
         options.refuse_with(given.context, ("baseline",), "--fix")
-    if not given.fix:
+    else:
         options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices"), "--fix")
     if not any(check.has_cells for check in measures.checks):
         options.refuse_options(given.context, ("cell", "pictures"), "--fit or --clearance")
@@ -165,15 +165,11 @@ def _number_notes(log: NoteLog, asset: str, text: str) -> str:
 
 
 def _describe_check(outcome: batch.CheckOutcome) -> str:
-    path, found = escape_name(str(outcome.path)), outcome.examination
-    if found is None:
-        (finding,) = outcome.findings
-        known = "known, " * bool(outcome.accepted)
-        return f"{path}: cannot be read ({known}{finding.code})\n  " + finding.message.replace("\n", "\n  ")
-    lines = [*_describe_work(outcome)]
-    if not found.findings and len(lines) == bool(found.loaded):  # nothing else to say
-        return f"{path}: legal{f' ({found.loaded.description})' if found.loaded else ''}"
-    texts = [f"{'known ' * (finding in outcome.accepted)}{finding}" for finding in found.findings]
+    path, lines = escape_name(str(outcome.path)), [*_describe_work(outcome)]
+    loaded = outcome.examination.loaded if outcome.examination else None
+    if not outcome.findings and len(lines) == bool(loaded):  # nothing else to say
+        return f"{path}: legal{f' ({loaded.description})' if loaded else ''}"
+    texts = [f"{'known ' * (finding in outcome.accepted)}{finding}" for finding in outcome.findings]
     lines += [line for text in texts for line in text.split("\n")]
     return "\n  ".join([f"{path}:", *lines])
 

@@ -64,19 +64,13 @@ def test_the_page_is_that_of_the_table() -> None:
 @pytest.mark.parametrize("name", ["MF204", "mf204", "mujoco-joins"])
 def test_a_code_or_a_rule_is_explained(run: Run, name: str) -> None:
     row = CODES["MF204"]
-    done = run("explain", name)
-    assert (done.code, done.out.splitlines()) == (
-        0,
-        [
-            "MF204: The engine makes one hull of a collision mesh of several",
-            "  rules: mujoco-joins, bullet-joins",
-            *(f"  why: {row.why}", f"  what to do: {row.remedy}", f"  example: {row.example}"),
-        ],
-    )
+    texts = f"  why: {row.why}\n  what to do: {row.remedy}\n  example: {row.example}\n"
+    head = "MF204: The engine makes one hull of a collision mesh of several\n  rules: mujoco-joins, bullet-joins\n"
+    assert run("explain", name).out == head + texts
 
 
 def test_without_a_code_all_are_listed_and_an_unknown_one_names_the_nearest(run: Run) -> None:
     assert [line.split()[0] for line in run("explain").out.splitlines()] == list(CODES)
-    for name, near in (("MF2O4", "MF204"), ("shape-gaps", "shape-gap")):
+    for name, near in (("MF-204", "MF204"), ("shape-gaps", "shape-gap")):
         done = run("explain", name)
         assert (done.code, done.out) == (2, "") and f"Did you mean {near!r}?" in done.err

@@ -1,8 +1,9 @@
 """Findings as builds read them: SARIF 2.1.0 for code scanning, and JUnit XML, a test case for each asset and check."""
 
 import json
+import os
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -45,6 +46,13 @@ class CheckCase:
         known = [f"known: {one.message}" for one in self.findings if one.severity == "error"]
         return "" if self.errors else "; ".join(filter(None, [self.skipped, *known]))
 
+    def relate_to(self, base: Path) -> "CheckCase":
+        """Return the same on every machine: paths in its messages count from a folder."""
+        findings = tuple(one.relate_to(base) for one in self.findings)
+        accepted = frozenset(one.relate_to(base) for one in self.accepted)
+        skipped = self.skipped.replace(f"{base}{os.sep}", "")
+        return replace(self, findings=findings, accepted=accepted, skipped=skipped)
+
     def locate(self, base: Path) -> str:
         """Return the path of the asset from a folder."""
         return relative_name(plain_path(self.path), base)
@@ -52,23 +60,21 @@ class CheckCase:
 
 def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]) -> Iterator[CheckCase]:
     """Yield a case for each check of an asset, legality first; one alone where it could not be read."""
-    found = outcome.examination
-    if found is None:
-        yield CheckCase(job.id, job.path, "read", outcome.findings, outcome.accepted)
-        return
-    physics = found.get("physics", Physics)
-    for name in ("legality", *checks):
-        findings = tuple(one for one in found.findings if one.check == name)
+    examined = outcome.examination
+    physics = examined.get("physics", Physics) if examined else None
+    for name in ("legality", *checks) if examined else ("read",):
+        findings = tuple(one for one in outcome.findings if one.check == name)
         untried = [one.message for one in findings if one.rule.endswith(_UNTRIED)]
         still = [f"not simulated: {physics.refused}"] if name == "physics" and physics and not physics.rest else []
-        reasons = [_UNCHANGED] if outcome.is_unchanged else [*untried, *still, found.unmeasured.get(name, "")]
+        reasons = [*untried, *still, examined.unmeasured.get(name, "") if examined else ""]
+        reasons = [_UNCHANGED] if outcome.is_unchanged else reasons
         yield CheckCase(job.id, job.path, name, findings, outcome.accepted, "; ".join(filter(None, reasons)))
 
 
 def list_goal_cases(path: Path, found: AssetGoals) -> Iterator[CheckCase]:
     """Yield a case for each goal that was tried on an asset, or one that it could not be read or edited."""
     if found.error:
-        yield make_edit_case(found.asset, path, found.error)
+        yield CheckCase(found.asset, path, "goals", (Finding("unreadable", "error", (), found.error, "", "goals"),))
     for name, result in found.after.items():
         check, skipped = f"goal {name}", result.why if result.outcome == "untried" else ""
         severity: Severity = "warning" if skipped else "error"
@@ -91,6 +97,7 @@ def write_build_files(sarif: Path | None, junit: Path | None, name: str, cases: 
     """Write what is asked for; name: of the command. Paths in the files count from here, where a build begins, or where
     assets lie elsewhere, from the folder that holds both."""
     base = common_folder([Path.cwd(), *(plain_path(case.path) for case in cases)])
+    cases = [case.relate_to(base) for case in cases]
     if sarif:
         write_atomically(sarif, json.dumps(_to_sarif(name, cases, base), indent=1) + "\n")
     if junit:
@@ -124,8 +131,7 @@ def _to_rule(code: RuleCode) -> dict[str, Any]:
 
 def _to_result(case: CheckCase, finding: Finding, base: Path, places: dict[str, int]) -> dict[str, Any]:
     rule, hulls = finding.code or finding.rule, [escape_text(hull) for hull in finding.hulls]
-    message = escape_text(finding.relate_to(base).message)
-    names = "\n".join(hulls or [message])
+    names = "\n".join(hulls or [escape_text(finding.message)])
     digest = text_digest("\n".join([escape_text(case.asset), case.check, finding.rule, names]))
     physical = {
         "artifactLocation": {"uri": quote(to_text(case.locate(base))), "uriBaseId": "%SRCROOT%"},
@@ -136,7 +142,7 @@ def _to_result(case: CheckCase, finding: Finding, base: Path, places: dict[str, 
         "ruleId": rule,
         "ruleIndex": places[rule],
         "level": "note" if finding.rule.endswith(_UNTRIED) else finding.severity,
-        "message": {"text": escape_text("\n".join(filter(None, [message, finding.remedy])))},
+        "message": {"text": escape_text("\n".join(filter(None, [finding.message, finding.remedy])))},
         "locations": [{"physicalLocation": physical} | ({"logicalLocations": logical} if logical else {})],
         "partialFingerprints": {"primaryLocationLineHash": f"{digest}:1"},
         "properties": {"rule": finding.rule, "check": case.check},
@@ -151,9 +157,9 @@ def _to_junit(name: str, cases: Sequence[CheckCase], base: Path) -> bytes:
     for case in cases:
         about = {"classname": case.asset, "name": case.check, "file": case.locate(base)}
         line = ElementTree.SubElement(suite, "testcase", {key: escape_text(text) for key, text in about.items()})
-        shown = escape_text("\n".join(str(one.relate_to(base)) for one in case.findings))
+        shown = escape_text("\n".join(map(str, case.findings)))
         if case.errors:
-            first = case.errors[0].relate_to(base)
+            first = case.errors[0]
             about = {"message": escape_text(first.message), "type": first.code or first.rule}
             ElementTree.SubElement(line, "failure", about).text = shown
         elif case.reason:
