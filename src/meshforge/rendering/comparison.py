@@ -19,7 +19,7 @@ from meshforge.rendering.canvas import Canvas, make_contact_sheet
 from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, label_colors, rgb
 from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, points_to_frame
 from meshforge.rendering.raycast import DrawLayer
-from meshforge.rendering.scene import to_render_mesh
+from meshforge.rendering.scene import RenderMesh, to_render_mesh
 from meshforge.symbolic import Surface, SymbolicMesh, find_unchanged
 
 if TYPE_CHECKING:
@@ -186,6 +186,9 @@ def draw_heat_map(
     return _draw(subject, size, title=title, legend=legend)
 
 
+_SMALL, _AROUND = 0.35, 0.22  # of the whole
+
+
 def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tuple[int, int], title: str) -> Image:
     """Return the marked parts of space, solid, within the hulls of a mesh as grey shells."""
     parts, shells = [to_render_mesh(surface) for _, _, surface in marked], picture.render_meshes_of(mesh.hulls)
@@ -193,5 +196,15 @@ def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tupl
     names = dict.fromkeys((color, name) for name, color, _ in marked)
     legend = tuple(LegendEntry(color, name) for color, name in names)
     pale = DrawLayer(shells, np.tile(rgb(palette.UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
-    subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), picture.up_axis(mesh))
+    subject = Subject((DrawLayer(parts, colors), pale), _frame_around(parts, shells), picture.up_axis(mesh))
     return _draw(subject, size, title=title, legend=legend)
+
+
+def _frame_around(parts: Sequence[RenderMesh], shells: Sequence[RenderMesh]) -> Floats:
+    """All points; where parts are small beside the hulls, a box around them in which one sees where they are."""
+    points = np.concatenate([one.vertices for one in (*parts, *shells)])
+    own, whole = Aabb.union(Aabb.of_points(one.vertices) for one in parts), Aabb.of_points(points)
+    if own.diagonal > _SMALL * whole.diagonal:
+        return points
+    half = whole.diagonal * _AROUND
+    return np.clip(np.stack([own.center - half, own.center + half]), whole.min, whole.max)

@@ -10,7 +10,7 @@ from meshforge.checks.goals import rooms
 from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
-from meshforge.geometry import Floats
+from meshforge.geometry import Box, Floats, Pose
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -84,7 +84,7 @@ class Contains(Goal):
             room = _find_place(subject, self.holder, part, find)
             if room is None:
                 continue
-            if too_large := _find_excess(self.size, room.size, "room", f"room {number}"):
+            if too_large := _find_excess(self.size, room.size, "room", f"room {number}", part.lift(room)):
                 return too_large
             half = _half_sizes(self.size, room.size)
             at = room.at + np.array([0.0, 0.0, half[2] + subject.touching - room.size[2]])
@@ -117,7 +117,7 @@ class Passes(Goal):
             if not found:
                 continue
             way = max(found, key=lambda one: float(one.size[1] * one.size[2]))
-            if too_large := _find_excess(self.size, way.size[1:], "opening", f"opening {number}"):
+            if too_large := _find_excess(self.size, way.size[1:], "opening", f"opening {number}", part.lift(way)):
                 return too_large
             size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
             ways[f"opening {number}"] = part.lift(replace(way, size=size))
@@ -147,10 +147,11 @@ def _half_sizes(size: float | Share, half: Floats) -> Floats:
     return size.value * half if isinstance(size, Share) else np.full(len(half), size / 2)
 
 
-def _find_excess(size: float | Share, half: Floats, what: str, name: str) -> Failure | None:
+def _find_excess(size: float | Share, half: Floats, what: str, name: str, place: Place) -> Failure | None:
     """The failure that a thing is larger than the room or the opening, as it is without anything in the way."""
     wanted = _half_sizes(size, half)
     if (wanted <= half).all():
         return None
     sides = " x ".join(mm(2 * one) for one in half)
-    return Failure(f"{name}: the {what} is {sides}, too small for {mm(2 * float(wanted.max()))}")
+    thing = Box(Pose(place.axes, place.at), np.full(3, float(wanted.max())))
+    return Failure(f"{name}: the {what} is {sides}, too small for {mm(2 * thing.half[0])}", objects=(thing,))
