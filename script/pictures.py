@@ -7,7 +7,10 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from PIL import Image
+
 from meshforge.batch import load_templates
+from meshforge.cli.demo import create_tables
 from meshforge.formats import load
 from meshforge.language import Program, to_canonical_frame
 from meshforge.project import Project
@@ -28,12 +31,21 @@ BY_HAND = ("table_02", "table_09")
 """The tables that somebody labels who follows the advice."""
 
 
+GOALS = {
+    "carries": "supports(Geo(Is(panel), +Z))",
+    "holds": "contains(Is(drawer), size = 8 cm)",
+    "grip": "graspable(Attach(Is(handle), Is(drawer)), width = 20 mm)",
+}
+FAILING = (("carries", "table_06.obj"), ("holds", "table_13.obj"), ("grip", "table_01.obj"))
+
+
 def main(folder: Path) -> None:
     """Write the pictures into a folder."""
     _tables(folder / "tables.png")
     _question(folder / "question.png")
     _draw_numbers(folder / "numbers.png")
     _labels(folder / "labels.png")
+    _draw_goals(folder / "goals.png")
     draw_sign_off(folder / "signoff.png")
     draw_spans(folder / "spans.png")
 
@@ -52,6 +64,16 @@ def _tables(path: Path) -> None:
     pictures = [image for k in (0, 1) for image in (pair[k] for pair in pairs)]
     words = [text for k in (0, 1) for text in (title[k] for title in titles)]
     write_png(path, make_contact_sheet(pictures, columns=len(SHOWN), titles=words))
+
+
+def _draw_goals(path: Path) -> None:
+    """Goals that fail on the tables as they were decomposed, one of each way."""
+    with tempfile.TemporaryDirectory() as folder:
+        project = create_tables(Path(folder) / "demo")
+        found = {one.asset: one for one in project.try_goals(GOALS)}
+        failing = [(found[asset].after[name].why, found[asset].pictures[name]) for name, asset in FAILING]
+        pictures = [Image.open(picture).convert("RGB") for _, picture in failing]
+    write_png(path, make_contact_sheet(pictures, columns=len(pictures), titles=[why for why, _ in failing]))
 
 
 def _question(path: Path) -> None:
