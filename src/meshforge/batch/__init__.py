@@ -6,7 +6,8 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "check": "ENGINES_TO_ASK CheckOutcome CheckTask check_asset check_assets examine_file",
+        "ask_engines": "ENGINES_TO_ASK",
+        "check": "CheckOutcome CheckTask check_asset check_assets examine_file",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
         ),

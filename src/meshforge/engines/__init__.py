@@ -3,5 +3,9 @@
 from meshforge.common.exports import export_lazily
 
 __getattr__, __all__ = export_lazily(
-    __name__, {"limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits"}
+    __name__,
+    {
+        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits",
+        "shapes": "EngineShape ShapeComparison",
+    },
 )

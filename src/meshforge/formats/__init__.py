@@ -7,11 +7,12 @@ __getattr__, __all__ = export_lazily(
     {
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
+        "conversion": "turn_upright",
         "engine_names": "EngineName MarkName",
         "mesh_input": "DecomposeBy decompose from_trimesh label_surface read_surface",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
-        "mjcf.compiler": "MujocoLoad try_in_mujoco",
+        "mjcf.loaded": "MujocoLoad try_in_mujoco",
         "output_tree": "SaveResult output_path_of save",
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",

@@ -11,6 +11,7 @@ from meshforge.formats.base import Loss as Loss
 from meshforge.formats.base import Mass as Mass
 from meshforge.formats.base import Output as Output
 from meshforge.formats.base import ReadOptions as ReadOptions
+from meshforge.formats.conversion import turn_upright as turn_upright
 from meshforge.formats.engine_names import EngineName as EngineName
 from meshforge.formats.engine_names import MarkName as MarkName
 from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
@@ -22,8 +23,8 @@ from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface
 from meshforge.formats.meshfile.surface import plain_part_name as plain_part_name
-from meshforge.formats.mjcf.compiler import MujocoLoad as MujocoLoad
-from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
+from meshforge.formats.mjcf.loaded import MujocoLoad as MujocoLoad
+from meshforge.formats.mjcf.loaded import try_in_mujoco as try_in_mujoco
 from meshforge.formats.output_tree import SaveResult as SaveResult
 from meshforge.formats.output_tree import output_path_of as output_path_of
 from meshforge.formats.output_tree import save as save
