@@ -18,12 +18,10 @@ from meshforge.checks import EngineLoad
 from meshforge.checks.base import Given
 from meshforge.common import MeshForgeError, quote_path
 from meshforge.engines import EngineShape, Finding, ShapeComparison
-from meshforge.formats import MujocoLoad, format_for, format_of, save, try_in_mujoco, turn_upright
+from meshforge.formats import ONE_FILE_A_HULL, MujocoLoad, format_for, format_of, save, try_in_mujoco, turn_upright
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere, rotation_of_quaternion
 from meshforge.symbolic import Asset, SymbolicMesh
 
-ONE_FILE_A_HULL = ("urdf", "sdf")
-"""The formats in which each hull of a mesh can get a file and a collision element of its own."""
 _OWN_FORMATS = {"mujoco": ("mjcf", "urdf"), "bullet": ("urdf", "sdf", "obj", "stl")}
 """The formats that an engine reads itself."""
 _PROGRAMS = {"mujoco": "mujoco", "bullet": "pybullet"}

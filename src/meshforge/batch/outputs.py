@@ -81,6 +81,7 @@ def write_draft(
         names=options.names,
         collision=options.collision,
         urdf_capsules=options.urdf_capsules,
+        one_file_a_hull=options.one_file_a_hull,
     )
     remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
     saved.report.refuse_lost_collision(str(mesh.asset.path if mesh.asset else main), remedy)

@@ -12,8 +12,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 from meshforge.common import join_names, pluralize
 from meshforge.engines.limits import Finding
-from meshforge.geometry import Floats, Polytope, Shape
-from meshforge.symbolic import Asset
+from meshforge.geometry import Aabb, Floats, Polytope, Shape
+from meshforge.symbolic import EPSILON, Asset, contact_graph
 
 _WAYS = np.array([way for way in product((-1, 0, 1), repeat=3) if any(way)], dtype=np.float64)
 _WAYS /= np.linalg.norm(_WAYS, axis=1)[:, None]
@@ -25,6 +25,7 @@ _OF_WIDTH = 1e-3
 thousandth collides alike."""
 _OF_ROUND = 0.01
 """Of the width of a round shape, by which Bullet's may be smaller: its cylinders have 32 sides."""
+_NARROW = "Make the margin less than half the gap, or move the hulls apart."
 _FLAT = 1e-7
 """Of the cube of its width, the volume of a piece that engines leave out for it spans none."""
 _OF_VOLUME = 0.02
@@ -106,7 +107,7 @@ class ShapeComparison:
         less = slack + _OF_ROUND * mine.width * is_round
         sides = mine.reach[_AXES[:3]] + mine.reach[_AXES[3:]]
         grown = 2 * slack * float(sides @ np.roll(sides, 1)) + _OF_VOLUME * max(mine.volume, there.volume)
-        return max(more.max() / slack, -more.min() / less, abs(there.volume - mine.volume) / grown)
+        return max(float(more.max()) / slack, -float(more.min()) / less, abs(there.volume - mine.volume) / grown)
 
     @property
     def findings(self) -> Iterator[Finding]:
@@ -127,7 +128,25 @@ class ShapeComparison:
             message = f"{self.asked} makes one hull of all of a collision mesh, which closes what is between: {texts}"
             names = tuple(self.names[k] for one in joined for k in one if k < len(self.asset.geoms))
             yield Finding(f"{self.engine}-joins", "error", names, message, self.remedy)
+        yield from self._report_margins()
         yield from self._report_others([k for k in rest if self.own[k].volume > _FLAT * self.own[k].width ** 3], left)
+
+    def _report_margins(self) -> Iterator[Finding]:
+        """Hulls that are apart here, and between which nothing passes there, since contacts begin at a distance."""
+        geoms = self.asset.geoms
+        margins = {k: self.found[there].margin for k, there in self.matches.items() if k < len(geoms)}
+        if not any(margins.values()):
+            return
+        size = Aabb.union(geom.shape.aabb for geom in geoms).diagonal
+        gaps = contact_graph([geom.shape for geom in geoms], 2 * max(margins.values()))
+        closed = {
+            pair: gap for pair, gap in gaps.items() if EPSILON * size < gap <= sum(margins.get(k, 0.0) for k in pair)
+        }
+        if closed:
+            texts = [f"{geoms[i].name} and {geoms[j].name} ({1000 * gap:.3g} mm)" for (i, j), gap in closed.items()]
+            message = f"{self.asked} closes gaps by the margins of hulls: {join_names(texts, 5)}"
+            names = tuple(dict.fromkeys(geoms[k].name for pair in closed for k in pair))
+            yield Finding(f"{self.engine}-margin", "error", names, message, _NARROW)
 
     def _report_others(self, rest: Sequence[int], left: Sequence[EngineShape]) -> Iterator[Finding]:
         """What differs for no known reason: hulls that are other ones there, or none, and shapes that are no hulls."""

@@ -13,7 +13,7 @@ __getattr__, __all__ = export_lazily(
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
         "mjcf.loaded": "MujocoLoad try_in_mujoco",
-        "output_tree": "SaveResult output_path_of save",
+        "output_tree": "ONE_FILE_A_HULL SaveResult output_path_of save",
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (

@@ -10,7 +10,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.common import AssetError, plain_path, replace_atomically, write_atomically
+from meshforge.common import AssetError, UsageError, plain_path, replace_atomically, write_atomically
 from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
@@ -24,6 +24,8 @@ _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tga", ".tif", ".tiff", "
 _KINDS = frozenset((*SUFFIXES, *_MESHES, *_PICTURES))
 """The suffixes of files that assets consist of."""
 
+ONE_FILE_A_HULL = ("urdf", "sdf")
+"""The formats in which a mesh may hold several hulls, of which each can get a file and an element of its own."""
 Content = bytes | Path
 """What a file is to hold: these bytes, or what another file holds."""
 
@@ -58,6 +60,7 @@ def save(
     names: MarkName | None = None,
     collision: Collision | None = None,
     urdf_capsules: bool = False,
+    one_file_a_hull: bool = False,
 ) -> SaveResult:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
@@ -68,9 +71,10 @@ def save(
     others are made anew. collision: for scenes (glTF, USD) in which nothing is marked, whether hulls are written beside
     what is seen, all of which stays, or in its place; None writes them beside it if an edit changed them or there are
     `names`, and else leaves such a file as it is. urdf_capsules: whether a URDF gets `<capsule>`, which not all readers
-    know; one that has some gets more of them in any case.
+    know; one that has some gets more of them in any case. one_file_a_hull: whether in a URDF or SDF each hull of a mesh
+    gets a file and a collision element of its own, for engines that make one hull of a file.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
-    overwritten. Raises UsageError: collision cannot be marked so in files of this format.
+    overwritten. Raises UsageError: collision cannot be marked so in files of this format, or it is no URDF or SDF.
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
@@ -78,6 +82,11 @@ def save(
     known = format_with_names(known, names) if names else known
     if urdf_capsules and known.name == "urdf":
         known = load_format("urdf.format:UrdfWithCapsules")
+    if one_file_a_hull:
+        if known.name not in ONE_FILE_A_HULL:
+            remedy = "Leave it out: other descriptions have each hull by itself; a path without suffix is a folder."
+            raise UsageError(f"--one-file-a-hull is for URDF and SDF, not {known.title}", remedy=remedy)
+        asset = replace(asset, one_file_a_hull=True)
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
     limits = _note_limits(asset, known, where, output.names)

@@ -19,6 +19,8 @@ __getattr__, __all__ = export_lazily(
             "LabelFile LabelTransfer format_labels match_labels parse_labels_text read_classes read_labels "
             "transfer_labels write_labels"
         ),
-        "mesh": "EPSILON NEAR_MISS SymbolicMesh bits_of find_unchanged mask_of split_by_body split_by_contact",
+        "mesh": (
+            "EPSILON NEAR_MISS SymbolicMesh bits_of contact_graph find_unchanged mask_of split_by_body split_by_contact"
+        ),
     },
 )

@@ -49,6 +49,7 @@ from meshforge.symbolic.mesh import EPSILON as EPSILON
 from meshforge.symbolic.mesh import NEAR_MISS as NEAR_MISS
 from meshforge.symbolic.mesh import SymbolicMesh as SymbolicMesh
 from meshforge.symbolic.mesh import bits_of as bits_of
+from meshforge.symbolic.mesh import contact_graph as contact_graph
 from meshforge.symbolic.mesh import find_unchanged as find_unchanged
 from meshforge.symbolic.mesh import mask_of as mask_of
 from meshforge.symbolic.mesh import split_by_body as split_by_body

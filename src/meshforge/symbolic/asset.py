@@ -214,6 +214,7 @@ class Asset:
     format says points up.
     mechanism: joints and masses, empty where the format has none.
     name_problems: names in it that an engine does not take as they are meant.
+    one_file_a_hull: whether a writer gives each piece of a collision mesh a file and an element of its own.
     """
 
     path: Path
@@ -229,6 +230,7 @@ class Asset:
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
     name_problems: tuple[NameProblem, ...] = ()
+    one_file_a_hull: bool = False
 
     @property
     def body_poses(self) -> dict[str, Pose]:

@@ -53,7 +53,7 @@ def _read_shapes(model: mujoco.MjModel) -> Iterator[EngineShape]:
         if not (model.geom_contype[k] or model.geom_conaffinity[k] or k in paired):
             continue
         pose = Pose(data.geom_xmat[k].reshape(3, 3), data.geom_xpos[k])
-        margin = float(model.geom_margin[k] - model.geom_gap[k])
+        margin = float(model.geom_margin[k])  # those of two geoms add up, from MuJoCo 4 on
         if model.geom_type[k] == mujoco.mjtGeom.mjGEOM_MESH:
             mesh = int(model.geom_dataid[k])
             first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
