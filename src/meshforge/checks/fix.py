@@ -98,11 +98,11 @@ def fix(
         )
         rules = tuple(limit.rule for limit in broken)
         changes.append(HullFix(hull.name, rules, made.error, (vertices, fewer), (polygons, left_over)))
-    made = mesh.with_hulls(hulls) if changes else mesh
+    ready = mesh.with_hulls(hulls) if changes else mesh
     parted = _find_several(mesh) if engine is not None and engine.name in ("mujoco", "bullet") else ()
-    if parted and made.asset:
-        made = replace(made, asset=replace(made.asset, one_file_a_hull=True))
-    return FixResult(made, tuple(changes), tuple(left), parted)
+    if parted and ready.asset:
+        ready = replace(ready, asset=replace(ready.asset, one_file_a_hull=True))
+    return FixResult(ready, tuple(changes), tuple(left), parted)
 
 
 def _find_several(mesh: SymbolicMesh) -> tuple[str, ...]:
@@ -110,7 +110,8 @@ def _find_several(mesh: SymbolicMesh) -> tuple[str, ...]:
     asset = mesh.asset
     if asset is None or asset.format not in ("urdf", "sdf"):
         return ()
-    return tuple(dict.fromkeys(piece.element for piece in (*asset.geoms, *asset.non_convex) if piece.element))
+    elements = [*(geom.element for geom in asset.geoms), *(piece.element for piece in asset.non_convex)]
+    return tuple(dict.fromkeys(filter(None, elements)))
 
 
 def _find_broken_limits(limits: Sequence[Limit], hull: Hull) -> list[Limit]:

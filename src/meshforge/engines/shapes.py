@@ -25,6 +25,8 @@ _OF_WIDTH = 1e-3
 thousandth collides alike."""
 _OF_ROUND = 0.01
 """Of the width of a round shape, by which Bullet's may be smaller: its cylinders have 32 sides."""
+_CLOSED = 0.999
+"""Of the two margins: a gap as wide as they are, but for rounding, is none that they close."""
 _NARROW = "Make the margin less than half the gap, or move the hulls apart."
 _FLAT = 1e-7
 """Of the cube of its width, the volume of a piece that engines leave out for it spans none."""
@@ -132,7 +134,12 @@ class ShapeComparison:
         yield from self._report_others([k for k in rest if self.own[k].volume > _FLAT * self.own[k].width ** 3], left)
 
     def _report_margins(self) -> Iterator[Finding]:
-        """Hulls that are apart here, and between which nothing passes there, since contacts begin at a distance."""
+        """Hulls that are apart here, and between which nothing passes there, since contacts begin at a distance.
+
+        The file sets that for MuJoCo. Bullet has one of its own: between pieces of a body it closes what is no gap to
+        anybody, between bodies what matters if they collide with each other.
+        """
+        own = self.engine == "bullet"
         geoms = self.asset.geoms
         margins = {k: self.found[there].margin for k, there in self.matches.items() if k < len(geoms)}
         if not any(margins.values()):
@@ -140,13 +147,16 @@ class ShapeComparison:
         size = Aabb.union(geom.shape.aabb for geom in geoms).diagonal
         gaps = contact_graph([geom.shape for geom in geoms], 2 * max(margins.values()))
         closed = {
-            pair: gap for pair, gap in gaps.items() if EPSILON * size < gap <= sum(margins.get(k, 0.0) for k in pair)
+            pair: gap
+            for pair, gap in gaps.items()
+            if EPSILON * size < gap < _CLOSED * sum(margins.get(k, 0.0) for k in pair)
+            and not (own and geoms[pair[0]].body == geoms[pair[1]].body)
         }
         if closed:
             texts = [f"{geoms[i].name} and {geoms[j].name} ({1000 * gap:.3g} mm)" for (i, j), gap in closed.items()]
             message = f"{self.asked} closes gaps by the margins of hulls: {join_names(texts, 5)}"
             names = tuple(dict.fromkeys(geoms[k].name for pair in closed for k in pair))
-            yield Finding(f"{self.engine}-margin", "error", names, message, _NARROW)
+            yield Finding(f"{self.engine}-margin", "warning" if own else "error", names, message, _NARROW)
 
     def _report_others(self, rest: Sequence[int], left: Sequence[EngineShape]) -> Iterator[Finding]:
         """What differs for no known reason: hulls that are other ones there, or none, and shapes that are no hulls."""

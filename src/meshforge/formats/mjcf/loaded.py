@@ -1,5 +1,7 @@
 """What MuJoCo says of a file as it is: whether it compiles it, and the shapes that it makes then."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +11,6 @@ import numpy as np
 from meshforge.engines import EngineShape
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.compiler import collect_warnings, failure_types
-from meshforge.formats.mjcf.model import read_primitive
 from meshforge.geometry import Pose
 
 
@@ -46,6 +47,8 @@ def _join_lines(message: str) -> str:
 
 def _read_shapes(model: mujoco.MjModel) -> Iterator[EngineShape]:
     """The shapes of geoms that collide, by contact bits or a `<pair>`, in the root frame at the reference pose."""
+    from meshforge.formats.mjcf.model import read_primitive  # lazy: it needs MuJoCo as soon as it is imported
+
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     paired = {*model.pair_geom1.tolist(), *model.pair_geom2.tolist()}
