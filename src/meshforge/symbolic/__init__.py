@@ -6,8 +6,8 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "asset": (
-            "Asset Body Coupling Document FileNote Geom Inertial Joint JointKind Mechanism Mentions NameProblem "
-            "NonConvexPiece Rgba Surface Texture unique_names unit_vector"
+            "Asset Body Coupling Document FileNote Geom Inertial Joint JointKind MISSING_REMEDY Mechanism Mentions "
+            "NameProblem NonConvexPiece Rgba Surface Texture unique_names unit_vector"
         ),
         "descriptor": "DESCRIPTOR_NAMES descriptors",
         "features": "PRIMITIVE_FEATURES Feature FeatureKind features_of",

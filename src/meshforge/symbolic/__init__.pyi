@@ -8,6 +8,7 @@ from meshforge.symbolic.asset import Geom as Geom
 from meshforge.symbolic.asset import Inertial as Inertial
 from meshforge.symbolic.asset import Joint as Joint
 from meshforge.symbolic.asset import JointKind as JointKind
+from meshforge.symbolic.asset import MISSING_REMEDY as MISSING_REMEDY
 from meshforge.symbolic.asset import Mechanism as Mechanism
 from meshforge.symbolic.asset import Mentions as Mentions
 from meshforge.symbolic.asset import NameProblem as NameProblem

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
+from meshforge.common import AssetError, join_names
 from meshforge.geometry import Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
 JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
@@ -179,6 +180,10 @@ class Mechanism:
         )
 
 
+MISSING_REMEDY = "It cannot do without: put each file there, or correct the reference."
+"""What to do where files are not there that an asset needs."""
+
+
 class Document:
     """Base of the kept source of an asset; each format keeps in its own subclass what it needs to write back.
 
@@ -209,7 +214,8 @@ class Asset:
     """A file with collision geometry; immutable, an edit is a new asset with other geoms.
 
     files: every file that the document refers to, found, absolute, in order of mention.
-    missing: references to visual files that are not there, as written in the document.
+    missing: references to files that are not there, as written in the document; needed: those of them without which
+    something may not collide, or the engine of the format refuses all of it.
     notes: what a user should know about how the file was read, and what it is (`FileNote`); up: the axis that its
     format says points up.
     mechanism: joints and masses, empty where the format has none.
@@ -226,6 +232,7 @@ class Asset:
     visuals: Sequence[Surface] = ()
     files: tuple[Path, ...] = ()
     missing: tuple[str, ...] = ()
+    needed: tuple[str, ...] = ()
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
@@ -235,6 +242,11 @@ class Asset:
     @property
     def body_poses(self) -> dict[str, Pose]:
         return {body.name: body.pose for body in self.bodies}
+
+    def refuse_missing(self) -> None:
+        """Raise AssetError where a file is not there that the asset cannot do without."""
+        if self.needed:
+            raise AssetError(f"not there: {join_names(self.needed, 5)}", where=str(self.path), remedy=MISSING_REMEDY)
 
     def with_geoms(self, geoms: Iterable[Geom]) -> Self:
         return replace(self, geoms=tuple(geoms))
