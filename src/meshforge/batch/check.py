@@ -56,6 +56,11 @@ class CheckOutcome:
         """Whether there is an error."""
         return self.examination is None or self.examination.has_failed
 
+    @property
+    def is_spotless(self) -> bool:
+        """Whether there is neither an error nor a warning."""
+        return self.examination is not None and not self.examination.findings
+
     def to_json(self) -> dict[str, Any]:
         """Return the examination as JSON-able data; in SI units, volumes in litres."""
         found = self.examination.findings if self.examination else ()

@@ -69,6 +69,7 @@ class CheckArguments:
         ),
     ] = None
     max_vertices: options.MaxVertices = None
+    strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where there are warnings.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
     report: options.ReportPath = None
     labels: options.LabelsPath = None
@@ -80,8 +81,8 @@ class CheckArguments:
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
-    file cannot be read.
+    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when something is wrong, with --strict
+    also when it is doubtful, or a file cannot be read; 2 when the command makes no sense.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
     measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)
@@ -103,7 +104,7 @@ def check(given: CheckArguments) -> None:
         for job, outcome in zip(
             jobs, batch.check_assets(jobs, task, replace(execution, progress=advance)), strict=True
         ):
-            failed += outcome.has_failed
+            failed += not outcome.is_spotless if given.strict else outcome.has_failed
             if page:
                 page.add(job, outcome)
             if given.json:
@@ -112,7 +113,7 @@ def check(given: CheckArguments) -> None:
                 typer.echo(_number_notes(log, job.id, _describe_check(outcome)))
     log.print_repeated()
     if not given.json and len(jobs) > _FEW:
-        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
+        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors{' or warnings' * given.strict}")
     if given.report and page:
         name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
         page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)
