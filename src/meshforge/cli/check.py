@@ -81,8 +81,8 @@ class CheckArguments:
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when something is wrong, with --strict
-    also when it is doubtful, or a file cannot be read; 2 when the command makes no sense.
+    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when something is wrong or cannot be
+    read, with --strict also when it is doubtful; 2 when the command makes no sense.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
     measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)

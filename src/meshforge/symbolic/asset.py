@@ -114,7 +114,8 @@ class Joint:
 
     name: empty where the file gives none; parent, child: the bodies it joins.
     anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length; both in the root frame.
-    limits: [rad] or [m] from zero, None where there are none.
+    limits: [rad] or [m] from zero, None where there are none; empty_limits: those of the file, in its unit, where the
+    lower one is not below the upper one, which engines take for none.
     damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
     where it has none. coupling: by which it follows another one. Several joints of one child act one after another, the
     first one nearest to the parent.
@@ -131,6 +132,7 @@ class Joint:
     friction: float = 0.0
     effort: float | None = None
     velocity: float | None = None
+    empty_limits: tuple[float, float] | None = None
     coupling: Coupling | None = None
 
     def __post_init__(self) -> None:

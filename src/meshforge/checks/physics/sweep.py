@@ -111,13 +111,10 @@ def _is_pin(touch: Touch, place: Place, near: float) -> bool:
 
 def check_joint_limits(joints: Sequence[Joint]) -> Iterator[Finding]:
     """Yield an error on joints whose limits leave them no way to move."""
-    texts = [
-        f"{joint.name or joint.child} ({joint.limits[0]:g} to {joint.limits[1]:g})"
-        for joint in joints
-        if joint.limits is not None and not joint.limits[0] < joint.limits[1]
-    ]
+    found = {joint.name or joint.child: joint.empty_limits or joint.limits for joint in joints}
+    texts = [f"{name} ({both[0]:g} to {both[1]:g})" for name, both in found.items() if both and not both[0] < both[1]]
     if texts:
-        message = f"joints whose limits leave them nowhere to go: {join_names(texts, 5)}"
+        message = f"joints whose limits leave them no way to go, which engines take for none: {join_names(texts, 5)}"
         yield Finding("physics-limits", "error", (), message, "Write the lower limit first; or make the joint fixed.")
 
 
