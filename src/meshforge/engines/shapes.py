@@ -163,7 +163,7 @@ class ShapeComparison:
         texts, remedy = list[str](), "Look at scale, pose and file of each in the file; `meshforge render` draws it."
         for k in rest:
             off = [float(np.abs(shape.reach - self.own[k].reach).max()) for shape in left]
-            near = f"the nearest shape there differs by {1000 * min(off):.3g} mm" if off else "it has none for it"
+            near = f"the nearest shape there differs by {min(off):.3g} m" if off else "it has none for it"
             texts.append(f"{self.names[k]} ({near})")
         if texts:
             message = f"{self.asked} does not make the same shape as is read here: {join_names(texts, 5)}"

@@ -117,10 +117,8 @@ def test_a_mesh_that_mujoco_takes_from_another_folder_is_an_error(run: Run, tmp_
     links = f'<link name="a">{MESH.format("row.obj")}{BALL}</link>'
     put(tmp_path, {"cup.urdf": f'<robot name="r"><mujoco><compiler meshdir="parts"/></mujoco>{links}</robot>'})
     told = run("check", "cup.urdf", "--engine", "mujoco")
-    assert told.code == 1 and "MuJoCo" in told.out
-    assert (
-        "does not make the same shape as is read here: a/row (the nearest shape there differs by 1e+04 mm)" in told.out
-    )
+    assert told.code == 1
+    assert "does not make the same shape as is read here: a/row (the nearest shape there differs by 10 m)" in told.out
 
 
 @pytest.mark.parametrize(("margin", "code"), [("0.002", 0), ("0.004", 1)])
