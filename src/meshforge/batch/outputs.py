@@ -17,7 +17,7 @@ from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, raise_if_stopped
 from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest, join_names
-from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, read, save
+from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, part_meshes, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 _NO_DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip can hold
@@ -73,6 +73,7 @@ def write_draft(
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
+    mesh = part_meshes(mesh, main) if options.one_file_a_hull else mesh
     saved = save(
         mesh,
         main,
@@ -81,7 +82,6 @@ def write_draft(
         names=options.names,
         collision=options.collision,
         urdf_capsules=options.urdf_capsules,
-        one_file_a_hull=options.one_file_a_hull,
     )
     remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
     saved.report.refuse_lost_collision(str(mesh.asset.path if mesh.asset else main), remedy)

@@ -7,8 +7,6 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
-from scipy.spatial import ConvexHull, QhullError
 
 from meshforge.common import join_names, pluralize
 from meshforge.engines.limits import Finding
@@ -58,6 +56,8 @@ class EngineShape:
 
 
 def _measure_volume(points: Floats) -> float:
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.2 s, only engines that are asked need it
+
     try:
         return float(ConvexHull(points).volume)
     except QhullError:
@@ -92,6 +92,8 @@ class ShapeComparison:
     @cached_property
     def matches(self) -> dict[int, int]:
         """Of our shapes those that the engine has, each with its number there."""
+        from scipy.optimize import linear_sum_assignment  # lazy: as above
+
         if not self.own or not self.found:
             return {}
         off = np.array([[self._measure_difference(k, there) for there in self.found] for k in range(len(self.own))])

@@ -12,8 +12,8 @@ __getattr__, __all__ = export_lazily(
         "mesh_input": "DecomposeBy decompose from_trimesh label_surface read_surface",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
-        "mjcf.loaded": "MujocoLoad try_in_mujoco",
-        "output_tree": "ONE_FILE_A_HULL SaveResult output_path_of save",
+        "mjcf.engine": "MujocoLoad try_in_mujoco",
+        "output_tree": "ONE_FILE_A_HULL SaveResult output_path_of part_meshes save",
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (

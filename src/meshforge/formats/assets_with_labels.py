@@ -10,7 +10,7 @@ from meshforge import symbolic
 from meshforge.common import AssetError, expand_glob
 from meshforge.formats.base import Collision
 from meshforge.formats.engine_names import MarkName
-from meshforge.formats.output_tree import SaveResult, make_output, save
+from meshforge.formats.output_tree import SaveResult, make_output, part_meshes, save
 from meshforge.formats.registry import FORMATS_BY_SUFFIX, Source, all_suffixes, is_asset, path_of, read
 from meshforge.symbolic import Label, SymbolicMesh, write_labels
 
@@ -92,6 +92,7 @@ def convert(
     Raises AssetError and UsageError as `load` and `save` do.
     """
     mesh = to_mesh(asset)
+    mesh = part_meshes(mesh, out) if one_file_a_hull else mesh
     saved = save(
         mesh,
         out,
@@ -100,7 +101,6 @@ def convert(
         names=names,
         collision=collision,
         urdf_capsules=urdf_capsules,
-        one_file_a_hull=one_file_a_hull,
     )
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
 

@@ -60,7 +60,6 @@ def save(
     names: MarkName | None = None,
     collision: Collision | None = None,
     urdf_capsules: bool = False,
-    one_file_a_hull: bool = False,
 ) -> SaveResult:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
@@ -71,10 +70,9 @@ def save(
     others are made anew. collision: for scenes (glTF, USD) in which nothing is marked, whether hulls are written beside
     what is seen, all of which stays, or in its place; None writes them beside it if an edit changed them or there are
     `names`, and else leaves such a file as it is. urdf_capsules: whether a URDF gets `<capsule>`, which not all readers
-    know; one that has some gets more of them in any case. one_file_a_hull: whether in a URDF or SDF each hull of a mesh
-    gets a file and a collision element of its own, for engines that make one hull of a file.
+    know; one that has some gets more of them in any case.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
-    overwritten. Raises UsageError: collision cannot be marked so in files of this format, or it is no URDF or SDF.
+    overwritten. Raises UsageError: collision cannot be marked so in files of this format.
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
@@ -82,11 +80,6 @@ def save(
     known = format_with_names(known, names) if names else known
     if urdf_capsules and known.name == "urdf":
         known = load_format("urdf.format:UrdfWithCapsules")
-    if one_file_a_hull:
-        if known.name not in ONE_FILE_A_HULL:
-            remedy = "Leave it out: other descriptions have each hull by itself; a path without suffix is a folder."
-            raise UsageError(f"--one-file-a-hull is for URDF and SDF, not {known.title}", remedy=remedy)
-        asset = replace(asset, one_file_a_hull=True)
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
     limits = _note_limits(asset, known, where, output.names)
@@ -102,6 +95,18 @@ def save(
     kept = {} if isinstance(what, Asset) else what.names_in_file
     found = output.names | {name: output.names.get(own, own) for name, own in kept.items()}
     return SaveResult(out, tuple(plan), found, output.hulled, report)
+
+
+def part_meshes(mesh: SymbolicMesh, out: str | Path) -> SymbolicMesh:
+    """Return a mesh of which each hull gets a file and a collision element of its own when it is written to `out`, for
+    engines that make one hull of a file. Raises UsageError: that is no URDF or SDF."""
+    if mesh.asset is None:
+        return mesh
+    known = format_for(Path(out), mesh.asset.format)
+    if known.name not in ONE_FILE_A_HULL:
+        remedy = "Leave it out: other descriptions have each hull by itself; a path without suffix is a folder."
+        raise UsageError(f"--one-file-a-hull is for URDF and SDF, not {known.title}", remedy=remedy)
+    return replace(mesh, asset=replace(mesh.asset, one_file_a_hull=True))
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:

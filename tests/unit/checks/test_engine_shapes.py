@@ -18,8 +18,9 @@ from meshforge.symbolic import SymbolicMesh
 from tests.cups import BOTTOM, WALLS, cup
 from tests.mjcf_engines import model, put
 from tests.shape_strategies import KINDS, shape
-from tests.unit.batch.preparation.samples import boxes_obj, write_boxes
+from tests.unit.batch.preparation.samples import write_boxes
 from tests.unit.cli.in_process import Run
+from tests.urdf_sample import boxes_obj
 
 MESH = '<collision name="row"><geometry><mesh filename="{}" scale="2 1 1"/></geometry></collision>'
 BALL = '<collision name="ball"><origin xyz="0 0 3"/><geometry><sphere radius=".5"/></geometry></collision>'
