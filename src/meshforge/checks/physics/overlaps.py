@@ -137,20 +137,20 @@ def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[F
 @dataclass(frozen=True, slots=True)
 class LoosePiece:
     """Hulls that touch each other, and nothing else of their rigid body; gap: around them, as a share of the diagonal,
-    `FLOATING` at most; certain: whether it is so wide, and the file says what is a body."""
+    `FLOATING` at most."""
 
     body: str
     hulls: tuple[str, ...]
     gap: float
-    certain: bool
 
 
 def find_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> tuple[LoosePiece, ...]:
     """Return the pieces of bodies that touch nothing of them.
 
-    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them.
+    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them, nor
+    of formats in which all is one body because nothing else is said.
     """
-    if mesh.asset is not None and mesh.asset.non_convex:
+    if mesh.asset is not None and (mesh.asset.non_convex or mesh.asset.format in ("gltf", *WITHOUT_BODIES)):
         return ()
     rigid, groups = tree.rigid_roots(), dict[str, list[int]]()
     for k, hull in enumerate(mesh.hulls):
@@ -164,9 +164,7 @@ def find_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> tuple[LoosePiece, 
             out = [gap for pair, gap in pairs.items() if len({*pair} & {*part}) == 1]
             gap = min(out, default=FLOATING * mesh.diagonal) / mesh.diagonal
             if body != "world":
-                is_body = mesh.asset is None or mesh.asset.format not in ("gltf", *WITHOUT_BODIES)
-                names = tuple(mesh.hulls[k].name for k in part)
-                found.append(LoosePiece(body, names, gap, is_body and gap >= FLOATING))
+                found.append(LoosePiece(body, tuple(mesh.hulls[k].name for k in part), gap))
     return tuple(found)
 
 
@@ -183,8 +181,8 @@ def _split(members: Sequence[int], pairs: Sequence[tuple[int, int]]) -> list[lis
 def report_loose_pieces(loose: Sequence[LoosePiece]) -> Iterator[Finding]:
     """Yield errors on pieces that float, warnings on those that are nearer."""
     kinds: tuple[tuple[Severity, bool], ...] = (("error", True), ("warning", False))
-    for severity, certain in kinds:
-        if some := [piece for piece in loose if piece.certain is certain]:
+    for severity, floats in kinds:
+        if some := [piece for piece in loose if (piece.gap >= FLOATING) is floats]:
             texts = [f"{join_names(piece.hulls, 3)} of {piece.body}" for piece in some]
             names = tuple(name for piece in some for name in piece.hulls)
             message = f"pieces that touch nothing of their body: {join_names(texts, 3)}"
