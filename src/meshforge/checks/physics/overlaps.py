@@ -1,6 +1,6 @@
 """Bodies that reach into each other before anything moves, and pieces of a body that touch nothing of it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -59,6 +59,7 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
     numbers = [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
     rigid, touching, back = tree.rigid_roots(), ContactRules(mesh), pose_on_floor(mesh).inverse()
     found: dict[tuple[str, str, bool], BodyOverlap] = {}
+    between: dict[tuple[str, str], list[tuple[Joint, float]]] = {}
     for contact in data.contact[: data.ncon]:
         first, second = sorted(numbers[int(g)] for g in contact.geom)
         if first < 0 or contact.dist >= 0:
@@ -68,9 +69,11 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
         key = a.body, b.body, excluded
         if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
             continue
-        joints = _find_joints_between(tree, rigid[a.body], rigid[b.body])
-        at = back.apply(np.array(contact.pos)[None])[0]
-        if not any(_is_around(mesh, tree, joint, at) for joint in joints):
+        pair = rigid[a.body], rigid[b.body]
+        if pair not in between:
+            between[pair] = _find_joints_between(mesh, tree, rigid, *pair)
+        joints, at = between[pair], back.apply(np.array(contact.pos)[None])
+        if not any(_measure_distance(joint, at) <= near for joint, near in joints):
             found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), bool(joints), excluded)
     least = DEEP * mesh.diagonal
     measured = (
@@ -80,20 +83,22 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
     return tuple(sorted(measured, key=lambda overlap: (-overlap.depth, overlap.bodies)))
 
 
-def _find_joints_between(tree: JointTree, first: str, second: str) -> list[Joint]:
-    """The joints of two rigid groups of bodies, by their highest bodies, one of which hangs on the other."""
-    rigid = tree.rigid_roots()
+def _find_joints_between(
+    mesh: SymbolicMesh, tree: JointTree, rigid: Mapping[str, str], first: str, second: str
+) -> list[tuple[Joint, float]]:
+    """The joints of two rigid groups of bodies, by their highest bodies, one of which hangs on the other; each with the
+    distance from its axis, or from the centre of a ball, within which the two may be in each other [m]."""
     for child, parent in ((first, second), (second, first)):
         if child in tree.above and rigid[tree.above[child]] == parent:
-            return tree.joints[child]
+            below = set(tree.list_below(child))
+            hulls = [hull for hull in mesh.hulls if hull.body in below]
+            return [
+                (joint, NEAR_AXIS * max(_measure_distance(joint, hull.vertices) for hull in hulls))
+                if joint.kind in ("revolute", "ball")
+                else (joint, -1.0)
+                for joint in tree.joints[child]
+            ]
     return []
-
-
-def _is_around(mesh: SymbolicMesh, tree: JointTree, joint: Joint, at: Floats) -> bool:
-    """Whether a point is so near to the axis of a joint as what holds two bodies together there."""
-    below = set(tree.list_below(joint.child))
-    near = NEAR_AXIS * max(_measure_distance(joint, hull.vertices) for hull in mesh.hulls if hull.body in below)
-    return joint.kind in ("revolute", "ball") and _measure_distance(joint, at[None]) <= near
 
 
 def _measure_distance(joint: Joint, points: Floats) -> float:
@@ -147,8 +152,8 @@ class LoosePiece:
 def find_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> tuple[LoosePiece, ...]:
     """Return the pieces of bodies that touch nothing of them.
 
-    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them, nor
-    of formats in which all is one body because nothing else is said.
+    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them,
+    nor of formats in which all is one body because nothing else is said.
     """
     if mesh.asset is not None and (mesh.asset.non_convex or mesh.asset.format in ("gltf", *WITHOUT_BODIES)):
         return ()
