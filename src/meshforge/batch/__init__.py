@@ -6,8 +6,9 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "ask_engines": "ENGINES_TO_ASK",
         "baseline": "Baseline",
-        "check": "ENGINES_TO_ASK CheckOutcome CheckTask check_asset check_assets examine_file",
+        "check": "CheckOutcome CheckTask check_asset check_assets examine_file",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
         ),

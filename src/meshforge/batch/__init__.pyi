@@ -1,6 +1,6 @@
 # Written by `python -m script.stubs`.
+from meshforge.batch.ask_engines import ENGINES_TO_ASK as ENGINES_TO_ASK
 from meshforge.batch.baseline import Baseline as Baseline
-from meshforge.batch.check import ENGINES_TO_ASK as ENGINES_TO_ASK
 from meshforge.batch.check import CheckOutcome as CheckOutcome
 from meshforge.batch.check import CheckTask as CheckTask
 from meshforge.batch.check import check_asset as check_asset

@@ -106,6 +106,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         if skipped:
             return skipped
         asset = formats.read(job.path)
+        asset.refuse_missing()
         inputs = inputs_of(task, job, provenance.asset_digests(job.path, asset.files, job.base))
         ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
         ready = replace_concave(ready, task.options.concave)

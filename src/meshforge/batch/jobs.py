@@ -62,8 +62,8 @@ class ApplyOptions:
     become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
     skipped; to: the suffix of the format that all are written in, each one's own when None; names: how collision is
     marked; collision: where the hulls of scenes go in which nothing is marked; urdf_capsules: whether URDFs get
-    `<capsule>`. The last three are as of `formats.save`. concave: what is done with non-convex collision meshes first,
-    see `replace_concave`.
+    `<capsule>`; one_file_a_hull: whether in URDFs and SDFs each hull of a mesh gets a file of its own. The last four
+    are as of `formats.save`. concave: what is done with non-convex collision meshes first, see `replace_concave`.
     """
 
     mass: formats.Mass = "keep"
@@ -75,6 +75,7 @@ class ApplyOptions:
     collision: formats.Collision | None = "beside"
     concave: Concave = "keep"
     urdf_capsules: bool = False
+    one_file_a_hull: bool = False
 
 
 APPLY_DEFAULTS = ApplyOptions()
@@ -97,6 +98,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputIn
     written = {"to": options.to, "names": options.names, "collision": options.collision}
     written |= {} if options.concave == "keep" else {"concave": options.concave}
     written |= {"urdf_capsules": "yes"} if options.urdf_capsules else {}
+    written |= {"one_file_a_hull": "yes"} if options.one_file_a_hull else {}
     return OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,

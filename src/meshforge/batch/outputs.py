@@ -15,7 +15,7 @@ from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
 from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest, join_names
-from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, read, save
+from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, part_meshes, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
@@ -68,6 +68,7 @@ def write_draft(
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
+    mesh = part_meshes(mesh, main) if options.one_file_a_hull else mesh
     saved = save(
         mesh,
         main,

@@ -7,11 +7,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal
 
 from meshforge.checks.legality import check_legality
-from meshforge.common import join_names, pluralize
 from meshforge.engines import Finding, find_engine
 from meshforge.symbolic import SymbolicMesh
 
@@ -123,8 +121,8 @@ class EngineLoad(Measure):
     """What an engine says of an asset, besides our table of its limits.
 
     engine, file: names; asked: the program and version that was run, None where none was; given: what it was given;
-    refusal, warnings: in its own words; joined: each collision mesh of which it makes one hull, with the hulls that are
-    read of it; untried: why an engine that can be asked was not, empty for one that cannot;
+    refusal, warnings: in its own words; differing: where the shapes that it makes are not the hulls that were read;
+    untried: why an engine that can be asked was not, empty for one that cannot;
     remedy: for a refusal, or for one that was not tried.
     """
 
@@ -134,7 +132,7 @@ class EngineLoad(Measure):
     given: Given | None = None
     refusal: str | None = None
     warnings: tuple[str, ...] = ()
-    joined: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    differing: tuple[Finding, ...] = ()
     untried: str = ""
     remedy: str = ""
 
@@ -159,11 +157,7 @@ class EngineLoad(Measure):
         if self.refusal:
             message = f"{self.asked} refuses {self._subject}: {self.refusal}"
             yield Finding(f"{self.engine}-refused", "error", (), message, self.remedy or "Fix what the message names.")
-        if self.joined:
-            names = join_names([f"{element} ({pluralize(len(of), 'hull')} here)" for element, of in self.joined])
-            message = f"{self.asked} makes one hull of all of a collision mesh, which closes what is between: {names}"
-            remedy = "meshforge convert to an MJCF writes a geom for each hull."
-            yield Finding(f"{self.engine}-joins", "warning", tuple(chain(*dict(self.joined).values())), message, remedy)
+        yield from self.differing
         for warning in self.warnings:
             yield Finding(f"{self.engine}-warned", "warning", (), f"{self.asked} warns: {warning}", "")
 

@@ -40,11 +40,15 @@ class HullFix:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FixResult:
-    """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left."""
+    """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left.
+
+    parted: collision meshes of several pieces, each of which is written to a file of its own.
+    """
 
     mesh: SymbolicMesh
     changes: tuple[HullFix, ...]
     left: tuple[str, ...]
+    parted: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return the changes as JSON-able data; lengths in metres."""
@@ -58,7 +62,7 @@ class FixResult:
             }
             for change in self.changes
         ]
-        return {"changes": rows, "left": list(self.left)}
+        return {"changes": rows, "left": list(self.left), "parted": list(self.parted)}
 
 
 def fix(
@@ -69,7 +73,8 @@ def fix(
 
     A new hull is convex, holds all of the old one, and takes over its name, label, body and contact attributes. It is
     left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of the mesh's diagonal
-    (without an end where `max_vertices` is given), or would come to overlap a hull of another body.
+    (without an end where `max_vertices` is given), or would come to overlap a hull of another body. In a URDF or SDF
+    for MuJoCo or Bullet, which make one hull of a mesh file, each hull goes into a file of its own.
     """
     allowed = tolerance if tolerance is not None else np.inf if max_vertices else TOLERANCE * mesh.diagonal
     asked = [make_limit("vertices", max_vertices, "error", "", "")] if max_vertices else []
@@ -93,7 +98,20 @@ def fix(
         )
         rules = tuple(limit.rule for limit in broken)
         changes.append(HullFix(hull.name, rules, made.error, (vertices, fewer), (polygons, left_over)))
-    return FixResult(mesh.with_hulls(hulls) if changes else mesh, tuple(changes), tuple(left))
+    ready = mesh.with_hulls(hulls) if changes else mesh
+    parted = _find_several(mesh) if engine is not None and engine.name in ("mujoco", "bullet") else ()
+    if parted and ready.asset:
+        ready = replace(ready, asset=replace(ready.asset, one_file_a_hull=True))
+    return FixResult(ready, tuple(changes), tuple(left), parted)
+
+
+def _find_several(mesh: SymbolicMesh) -> tuple[str, ...]:
+    """The collision meshes of several pieces in a URDF or SDF."""
+    asset = mesh.asset
+    if asset is None or asset.format not in ("urdf", "sdf"):
+        return ()
+    elements = [*(geom.element for geom in asset.geoms), *(piece.element for piece in asset.non_convex)]
+    return tuple(dict.fromkeys(filter(None, elements)))
 
 
 def _find_broken_limits(limits: Sequence[Limit], hull: Hull) -> list[Limit]:

@@ -8,7 +8,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.common import join_names, pluralize
 from meshforge.engines import Finding
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import MISSING_REMEDY, Hull, SymbolicMesh
 
 _REHULL = "Merge the hull by itself, which makes it anew, or delete it."
 _SPLIT = "A mesh can be decomposed into hulls; anything else is left as it is."
@@ -40,6 +40,7 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
     faulty = frozenset(name for names in faults.values() for name in names)
     return faulty, (
         *findings,
+        *_check_files(mesh),
         *_check_names_and_bodies(mesh),
         *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
         *(
@@ -47,6 +48,12 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
             for piece in (mesh.asset.non_convex if mesh.asset else ())
         ),
     )
+
+
+def _check_files(mesh: SymbolicMesh) -> Iterator[Finding]:
+    if mesh.asset is not None and mesh.asset.needed:
+        message = f"not there: {join_names(mesh.asset.needed, 5)}"
+        yield Finding("missing", "error", (), message, MISSING_REMEDY)
 
 
 def _check_names_and_bodies(mesh: SymbolicMesh) -> Iterator[Finding]:

@@ -69,6 +69,7 @@ class CheckArguments:
         ),
     ] = None
     max_vertices: options.MaxVertices = None
+    strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where there are warnings.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
     report: options.ReportPath = None
     sarif: options.SarifPath = None
@@ -84,9 +85,9 @@ class CheckArguments:
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
-    file cannot be read, with --baseline only where that is not in the file. meshforge explain CODE says what a finding
-    means.
+    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when something is wrong or cannot be
+    read, with --strict also when it is doubtful, with --baseline only where that is not in the file; 2 when the command
+    makes no sense. meshforge explain CODE says what a finding means.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
     measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)
@@ -115,7 +116,7 @@ def check(given: CheckArguments) -> None:
         for job in jobs:
             outcome = unchanged.get(job.id) or next(results)
             outcome = known.compare(job, outcome) if known else outcome
-            failed += outcome.has_failed
+            failed += not outcome.is_spotless if given.strict else outcome.has_failed
             accepted += len(outcome.accepted)
             if known or given.sarif or given.junit:
                 done.append((job, outcome))
@@ -129,7 +130,8 @@ def check(given: CheckArguments) -> None:
     log.print_repeated()
     if not given.json and (len(jobs) > _FEW or known):
         before = f", {pluralize(accepted, 'finding')} known, {len(unchanged):,} not checked again" if known else ""
-        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with {'new ' * bool(known)}errors{before}")
+        what = f"{'new ' * bool(known)}errors{' or warnings' * given.strict}"
+        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with {what}{before}")
     if given.report and page:
         name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
         page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)

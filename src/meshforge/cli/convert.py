@@ -41,6 +41,13 @@ class ConvertArguments:
         ),
     ] = "keep"
     urdf_capsules: options.UrdfCapsules = False
+    one_file_a_hull: Annotated[
+        bool,
+        typer.Option(
+            "--one-file-a-hull",
+            help="URDF and SDF: each hull of a mesh in a file and an element of its own, for MuJoCo and Bullet.",
+        ),
+    ] = False
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -90,6 +97,7 @@ def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, su
         collision=given.collision,
         concave=given.concave,
         urdf_capsules=given.urdf_capsules,
+        one_file_a_hull=given.one_file_a_hull,
     )
     if len(jobs) > 1:
         remark(batch.describe_jobs(jobs))
@@ -139,6 +147,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
             names=given.names,
             collision=given.collision,
             urdf_capsules=given.urdf_capsules,
+            one_file_a_hull=given.one_file_a_hull,
         )
         read_notes = formats.notes_after(mesh.asset, formats.read(saved.path), saved.hulled) if mesh.asset else ()
     if given.json:

@@ -26,6 +26,8 @@ def info(
         print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_result_status(asset, project)))
     else:
         _print_asset(mesh, str(asset))
+    if mesh.asset:
+        mesh.asset.refuse_missing()
 
 
 def _describe_result_status(asset: Path, folder: Path | None) -> dict[str, Any]:

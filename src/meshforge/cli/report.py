@@ -94,6 +94,7 @@ def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
         return ()
     return (
         *(f"fixed: {change.description}" for change in fixed.changes),
+        *(f"fixed: {escape_name(element)}: each of its hulls is in a file of its own" for element in fixed.parted),
         *fixed.left,
         f"wrote {escape_name(str(examined.output))}",
     )

@@ -7,5 +7,6 @@ __getattr__, __all__ = export_lazily(
     {
         "codes": "CODES CODES_BY_RULE RuleCode",
         "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits",
+        "shapes": "EngineShape ShapeComparison",
     },
 )

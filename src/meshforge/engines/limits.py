@@ -186,13 +186,22 @@ def _check_hull_counts(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[
 
 
 def _check_one_hull_a_file(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Finding]:
-    """A mesh file of several hulls: one mesh asset of MuJoCo is one convex hull (XML reference, asset/mesh)."""
-    several = engine.name == "mujoco" and mesh.asset is not None and mesh.asset.format in _MESH_FILES
-    if not several or len(mesh.hulls) < 2 or (mesh.asset and mesh.asset.path.is_dir()):
+    """A mesh file of several hulls, of which an engine makes one; PyBullet is asked itself.
+
+    An error where that was tried: one mesh asset of MuJoCo is one convex hull (XML reference, asset/mesh). PhysX makes
+    one of a convex mesh (PxConvexMeshDesc), Unity of a Mesh Collider that is convex (manual), Godot of a mesh
+    (Mesh.create_convex_shape), and Unreal finds none in a file without its names; but what imports a file, as SAPIEN
+    does, may split it before.
+    """
+    asset, names = mesh.asset, tuple(hull.name for hull in mesh.hulls)
+    if engine.name == "bullet" or asset is None or asset.format not in _MESH_FILES or len(names) < 2:
         return
-    names = tuple(hull.name for hull in mesh.hulls)
-    message = f"{pluralize(len(names), 'hull')} in one mesh file; MuJoCo makes a single hull of them"
-    yield Finding("mujoco-one-hull-a-file", "warning", names, message, "Write one file a hull, as for URDF or MJCF.")
+    outs = {"mujoco": "OUT.xml", "physx-cpu": "OUT.usda", "physx-gpu": "OUT.usda"}
+    out = outs.get(engine.name, f"OUT.glb --names {engine.name}")
+    message = f"{pluralize(len(names), 'hull')} in one mesh file; {engine.title} makes a single hull of them"
+    severity: Severity = "error" if engine.name == "mujoco" else "warning"
+    remedy = f"Write each hull by itself: meshforge convert FILE {out}"
+    yield Finding(f"{engine.name}-one-hull-a-file", severity, names, message, remedy)
 
 
 def _read_engines() -> Iterator[Engine]:

@@ -7,12 +7,13 @@ __getattr__, __all__ = export_lazily(
     {
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
+        "conversion": "turn_upright",
         "engine_names": "EngineName MarkName",
         "mesh_input": "DecomposeBy decompose from_trimesh",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
-        "mjcf.compiler": "MujocoLoad try_in_mujoco",
-        "output_tree": "SaveResult output_path_of save",
+        "mjcf.engine": "MujocoLoad try_in_mujoco",
+        "output_tree": "ONE_FILE_A_HULL SaveResult output_path_of part_meshes save",
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (

@@ -11,6 +11,7 @@ from meshforge.formats.base import Loss as Loss
 from meshforge.formats.base import Mass as Mass
 from meshforge.formats.base import Output as Output
 from meshforge.formats.base import ReadOptions as ReadOptions
+from meshforge.formats.conversion import turn_upright as turn_upright
 from meshforge.formats.engine_names import EngineName as EngineName
 from meshforge.formats.engine_names import MarkName as MarkName
 from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
@@ -20,10 +21,12 @@ from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface
 from meshforge.formats.meshfile.surface import plain_part_name as plain_part_name
-from meshforge.formats.mjcf.compiler import MujocoLoad as MujocoLoad
-from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
+from meshforge.formats.mjcf.engine import MujocoLoad as MujocoLoad
+from meshforge.formats.mjcf.engine import try_in_mujoco as try_in_mujoco
+from meshforge.formats.output_tree import ONE_FILE_A_HULL as ONE_FILE_A_HULL
 from meshforge.formats.output_tree import SaveResult as SaveResult
 from meshforge.formats.output_tree import output_path_of as output_path_of
+from meshforge.formats.output_tree import part_meshes as part_meshes
 from meshforge.formats.output_tree import save as save
 from meshforge.formats.plain.obj import format_obj as format_obj
 from meshforge.formats.plain.parts import MeshPart as MeshPart

@@ -10,7 +10,7 @@ from meshforge import symbolic
 from meshforge.common import AssetError, expand_glob
 from meshforge.formats.base import Collision
 from meshforge.formats.engine_names import MarkName
-from meshforge.formats.output_tree import SaveResult, make_output, save
+from meshforge.formats.output_tree import SaveResult, make_output, part_meshes, save
 from meshforge.formats.registry import FORMATS_BY_SUFFIX, Source, all_suffixes, is_asset, path_of, read
 from meshforge.symbolic import Label, SymbolicMesh, write_labels
 
@@ -80,18 +80,27 @@ def convert(
     names: MarkName | None = None,
     collision: Collision | None = None,
     urdf_capsules: bool = False,
+    one_file_a_hull: bool = False,
 ) -> SaveResult:
     """Write an asset in the format that the suffix of `out` names, or unchanged in its own; its labels beside it.
 
     asset: a mesh, or what `load` reads. link: files that are only copied become hard links; overwrite: existing files
     may be replaced. names: how the file marks collision; collision: where the hulls of a scene go in which nothing is
-    marked; urdf_capsules: whether a URDF gets `<capsule>`: all as `save` has them.
+    marked; urdf_capsules: whether a URDF gets `<capsule>`; one_file_a_hull: whether each hull of a mesh gets a file of
+    its own: all as `save` has them.
     The result says what the format cannot hold, in `.notes` and `.report`. Labels keep the names that hulls have there.
     Raises AssetError and UsageError as `load` and `save` do.
     """
     mesh = to_mesh(asset)
+    mesh = part_meshes(mesh, out) if one_file_a_hull else mesh
     saved = save(
-        mesh, out, link=link, overwrite=overwrite, names=names, collision=collision, urdf_capsules=urdf_capsules
+        mesh,
+        out,
+        link=link,
+        overwrite=overwrite,
+        names=names,
+        collision=collision,
+        urdf_capsules=urdf_capsules,
     )
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
 

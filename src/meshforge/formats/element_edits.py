@@ -196,7 +196,7 @@ class ElementEdits:
         kept = collision_pieces.names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
-            if len(staying) == len(authored.names):
+            if len(staying) == len(authored.names) and not (self.asset.one_file_a_hull and len(staying) > 1):
                 outputs = [OutputElement(authored.body, authored.names, element.attributes.get("name"), element)]
             else:
                 outputs = []  # an element for each piece, its triangles as authored in a file of their own

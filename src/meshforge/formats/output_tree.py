@@ -10,7 +10,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.common import AssetError, plain_path, replace_atomically, write_atomically
+from meshforge.common import AssetError, UsageError, plain_path, replace_atomically, write_atomically
 from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
@@ -24,6 +24,8 @@ _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tga", ".tif", ".tiff", "
 _KINDS = frozenset((*SUFFIXES, *_MESHES, *_PICTURES))
 """The suffixes of files that assets consist of."""
 
+ONE_FILE_A_HULL = ("urdf", "sdf")
+"""The formats in which a mesh may hold several hulls, of which each can get a file and an element of its own."""
 Content = bytes | Path
 """What a file is to hold: these bytes, or what another file holds."""
 
@@ -93,6 +95,18 @@ def save(
     kept = {} if isinstance(what, Asset) else what.names_in_file
     found = output.names | {name: output.names.get(own, own) for name, own in kept.items()}
     return SaveResult(out, tuple(plan), found, output.hulled, report)
+
+
+def part_meshes(mesh: SymbolicMesh, out: str | Path) -> SymbolicMesh:
+    """Return a mesh of which each hull gets a file and a collision element of its own when it is written to `out`, for
+    engines that make one hull of a file. Raises UsageError: that is no URDF or SDF."""
+    if mesh.asset is None:
+        return mesh
+    known = format_for(Path(out), mesh.asset.format)
+    if known.name not in ONE_FILE_A_HULL:
+        remedy = "Leave it out: other descriptions have each hull by itself; a path without suffix is a folder."
+        raise UsageError(f"--one-file-a-hull is for URDF and SDF, not {known.title}", remedy=remedy)
+    return replace(mesh, asset=replace(mesh.asset, one_file_a_hull=True))
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:

@@ -144,4 +144,6 @@ def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
 
 def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
     with confine_reads(home):  # else a page could ask which files are on the disk
-        return read(path).files
+        asset = read(path)
+        asset.refuse_missing()
+        return asset.files

@@ -6,8 +6,8 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "asset": (
-            "Asset Body Coupling Document FileNote Geom Inertial Joint JointKind Mechanism Mentions NameProblem "
-            "NonConvexPiece Rgba Surface Texture unique_names unit_vector"
+            "Asset Body Coupling Document FileNote Geom Inertial Joint JointKind MISSING_REMEDY Mechanism Mentions "
+            "NameProblem NonConvexPiece Rgba Surface Texture unique_names unit_vector"
         ),
         "descriptor": "DESCRIPTOR_NAMES descriptors",
         "features": "PRIMITIVE_FEATURES Feature FeatureKind features_of",
@@ -19,6 +19,8 @@ __getattr__, __all__ = export_lazily(
             "LabelFile LabelTransfer format_labels match_labels parse_labels_text read_classes read_labels "
             "transfer_labels write_labels"
         ),
-        "mesh": "EPSILON NEAR_MISS SymbolicMesh bits_of find_unchanged mask_of split_by_body split_by_contact",
+        "mesh": (
+            "EPSILON NEAR_MISS SymbolicMesh bits_of contact_graph find_unchanged mask_of split_by_body split_by_contact"
+        ),
     },
 )

@@ -8,6 +8,7 @@ from meshforge.symbolic.asset import Geom as Geom
 from meshforge.symbolic.asset import Inertial as Inertial
 from meshforge.symbolic.asset import Joint as Joint
 from meshforge.symbolic.asset import JointKind as JointKind
+from meshforge.symbolic.asset import MISSING_REMEDY as MISSING_REMEDY
 from meshforge.symbolic.asset import Mechanism as Mechanism
 from meshforge.symbolic.asset import Mentions as Mentions
 from meshforge.symbolic.asset import NameProblem as NameProblem
@@ -49,6 +50,7 @@ from meshforge.symbolic.mesh import EPSILON as EPSILON
 from meshforge.symbolic.mesh import NEAR_MISS as NEAR_MISS
 from meshforge.symbolic.mesh import SymbolicMesh as SymbolicMesh
 from meshforge.symbolic.mesh import bits_of as bits_of
+from meshforge.symbolic.mesh import contact_graph as contact_graph
 from meshforge.symbolic.mesh import find_unchanged as find_unchanged
 from meshforge.symbolic.mesh import mask_of as mask_of
 from meshforge.symbolic.mesh import split_by_body as split_by_body

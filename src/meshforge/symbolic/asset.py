@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
+from meshforge.common import AssetError, join_names
 from meshforge.geometry import Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
 JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
@@ -113,7 +114,8 @@ class Joint:
 
     name: empty where the file gives none; parent, child: the bodies it joins.
     anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length; both in the root frame.
-    limits: [rad] or [m] from zero, None where there are none.
+    limits: [rad] or [m] from zero, None where there are none; empty_limits: those of the file, in its unit, where the
+    lower one is not below the upper one, which engines take for none.
     damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
     where it has none. coupling: by which it follows another one. Several joints of one child act one after another, the
     first one nearest to the parent.
@@ -130,6 +132,7 @@ class Joint:
     friction: float = 0.0
     effort: float | None = None
     velocity: float | None = None
+    empty_limits: tuple[float, float] | None = None
     coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
@@ -179,6 +182,10 @@ class Mechanism:
         )
 
 
+MISSING_REMEDY = "It cannot do without: put each file there, or correct the reference."
+"""What to do where files are not there that an asset needs."""
+
+
 class Document:
     """Base of the kept source of an asset; each format keeps in its own subclass what it needs to write back.
 
@@ -209,11 +216,13 @@ class Asset:
     """A file with collision geometry; immutable, an edit is a new asset with other geoms.
 
     files: every file that the document refers to, found, absolute, in order of mention.
-    missing: references to visual files that are not there, as written in the document.
+    missing: references to files that are not there, as written in the document; needed: those of them without which
+    something may not collide, or the engine of the format refuses all of it.
     notes: what a user should know about how the file was read, and what it is (`FileNote`); up: the axis that its
     format says points up.
     mechanism: joints and masses, empty where the format has none.
     name_problems: names in it that an engine does not take as they are meant.
+    one_file_a_hull: whether a writer gives each piece of a collision mesh a file and an element of its own.
     """
 
     path: Path
@@ -225,14 +234,21 @@ class Asset:
     visuals: Sequence[Surface] = ()
     files: tuple[Path, ...] = ()
     missing: tuple[str, ...] = ()
+    needed: tuple[str, ...] = ()
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
     name_problems: tuple[NameProblem, ...] = ()
+    one_file_a_hull: bool = False
 
     @property
     def body_poses(self) -> dict[str, Pose]:
         return {body.name: body.pose for body in self.bodies}
+
+    def refuse_missing(self) -> None:
+        """Raise AssetError where a file is not there that the asset cannot do without."""
+        if self.needed:
+            raise AssetError(f"not there: {join_names(self.needed, 5)}", where=str(self.path), remedy=MISSING_REMEDY)
 
     def with_geoms(self, geoms: Iterable[Geom]) -> Self:
         return replace(self, geoms=tuple(geoms))

@@ -90,10 +90,14 @@ def in_file(form: str, count: int) -> SymbolicMesh:
     return SymbolicMesh.of(Asset(Path(f"x.{form}"), form, (Body("b", Pose.identity()),), geoms, Document()))
 
 
-def test_several_hulls_in_one_mesh_file_are_one_hull_for_mujoco() -> None:
-    assert [f.rule for f in check(in_file("obj", 2), "mujoco")] == ["mujoco-one-hull-a-file"]
-    assert check(in_file("obj", 1), "mujoco") == ()
-    assert check(in_file("urdf", 2), "mujoco") == ()
+@pytest.mark.parametrize(
+    ("engine", "severities"),
+    [("mujoco", ["error"]), ("unity", ["warning"]), ("physx-gpu", ["warning"]), ("bullet", [])],
+)
+def test_several_hulls_in_one_mesh_file_are_one_hull_for_engines(engine: str, severities: list[str]) -> None:
+    found = check(in_file("obj", 2), engine)
+    assert [(f.rule, f.severity) for f in found] == [(f"{engine}-one-hull-a-file", one) for one in severities]
+    assert check(in_file("obj", 1), engine) == check(in_file("urdf", 2), engine) == ()
 
 
 def test_a_hull_that_is_none_is_not_measured() -> None:

@@ -55,6 +55,18 @@ def send(page: StartPage, path: str, data: bytes) -> None:
     asyncio.run(page.uploads.put(path, _chunks(data)))
 
 
+def test_what_lacks_files_is_said_and_left_out(page: StartPage, tmp_path: Path) -> None:
+    lost = '<mujoco><asset><mesh file="gone.stl" name="m"/></asset><worldbody><geom size="1"/>'
+    lost += '<geom type="mesh" mesh="m" contype="0" conaffinity="0"/></worldbody></mujoco>'
+    (tmp_path / "home").mkdir()
+    (tmp_path / "home/cup.xml").write_text(lost)
+    looked = page.look_at_folder(str(tmp_path / "home"))
+    assert looked.broken == 1 and looked.problem and "not there: gone.stl" in looked.problem
+    send(page, "cup.xml", lost.encode())
+    with pytest.raises(MeshForgeError, match=r"not there: gone\.stl"):
+        page.look_at_upload()
+
+
 # Recent projects
 
 

@@ -6,10 +6,9 @@ from itertools import product
 import numpy as np
 
 from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
-from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree
-from meshforge.checks.physics.scene import Failure, Place
+from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree, explain_untried, place_joint
+from meshforge.checks.physics.scene import Failure, Place, frame_of_axis
 from meshforge.common import require_mujoco
-from meshforge.geometry import Floats, Pose
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -19,8 +18,6 @@ from meshforge.language import (
     QuantityArgument,
 )
 from meshforge.symbolic import Hull, Joint
-
-_MOTIONS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +71,7 @@ class Swings(Goal):
         if self.about is not None:
             assert self.axis and self.angle
             centre = np.mean([hull.shape.centroid for hull in subject.select(self.about)], axis=0)
-            axis = Place(centre, np.array([0.0, self.angle, 0.0]), _frame(subject.turn_axis(self.axis)))
+            axis = Place(centre, np.array([0.0, self.angle, 0.0]), frame_of_axis(subject.turn_axis(self.axis)))
             names = {hull.name for hull in moved}
             rest = [hull for hull in subject.hulls if hull.name not in names]
             return try_swing(moved, rest, axis, subject.touching, "hinge", self._find_apart(subject))
@@ -84,9 +81,10 @@ class Swings(Goal):
         for joint, bodies in joints:
             moving = [hull for hull in subject.hulls if hull.body in bodies]
             rest = [hull for hull in subject.hulls if hull.body not in bodies]
-            place = _place_of(joint, subject.upright)
-            motion = _MOTIONS[joint.kind]
-            if why := try_swing(moving, rest, place, subject.touching, motion, self._find_apart(subject)):  # type: ignore[arg-type]
+            if problem := explain_untried(joint):
+                raise NotApplicableError(problem)
+            place, motion = place_joint(joint, subject.upright)
+            if why := try_swing(moving, rest, place, subject.touching, motion, self._find_apart(subject)):
                 return why
         return None
 
@@ -109,35 +107,7 @@ def _find_joints(subject: GoalSubject, moved: tuple[Hull, ...]) -> list[tuple[Jo
         while body in tree.above:
             joint = next((one for one in reversed(tree.joints[body]) if one.kind not in WELDED_JOINTS), None)
             if joint is not None:
-                found[body] = (joint, frozenset(_list_below(tree, body)))
+                found[body] = (joint, frozenset(tree.list_below(body)))
                 break
             body = tree.above[body]
     return list(found.values())
-
-
-def _list_below(tree: JointTree, body: str) -> list[str]:
-    bodies = [body]
-    for one in bodies:
-        bodies += tree.children_of(one)
-    return bodies
-
-
-def _place_of(joint: Joint, upright: Floats) -> Place:
-    """Where a joint is, and its range. Raises NotApplicableError for one that has none."""
-    if joint.kind not in _MOTIONS or joint.coupling is not None:
-        raise NotApplicableError(f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}")
-    if joint.limits is None and joint.kind == "prismatic":
-        raise NotApplicableError(f"the joint {joint.name or joint.child!r} slides without limits")
-    low, high = joint.limits or (0.0, 2 * np.pi)
-    scale = 1.0 if joint.kind == "prismatic" else float(np.degrees(1.0))
-    pose = Pose(upright, np.zeros(3))
-    at, axis = pose.apply(joint.anchor[None])[0], upright @ joint.axis
-    return Place(at, np.array([low * scale, high * scale, 0.0]), _frame(axis))
-
-
-def _frame(axis: Floats) -> Floats:
-    """A rotation (3, 3) whose first column is an axis."""
-    helper = np.eye(3)[int(np.abs(axis).argmin())]
-    second = np.cross(axis, helper)
-    second /= np.linalg.norm(second)
-    return np.stack([axis, second, np.cross(axis, second)], axis=1)

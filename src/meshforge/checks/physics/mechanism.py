@@ -1,16 +1,17 @@
 """The mechanism of a mesh: which body hangs on which as MuJoCo takes it, which hulls may touch and how they rub, and
 whether the masses and inertias in its file can be those of its bodies."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any, Self
 
 import numpy as np
 
+from meshforge.checks.physics.scene import Motion, Place, frame_of_axis
 from meshforge.common import join_names
 from meshforge.engines import Finding, Severity
-from meshforge.geometry import Aabb, Pose, inertia
+from meshforge.geometry import Aabb, Floats, Pose, inertia
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 
 WELDED_JOINTS = ("fixed", "planar")
@@ -48,6 +49,13 @@ class JointTree:
             body = self.above[body]
         return body
 
+    def list_below(self, body: str) -> list[str]:
+        """Return a body and all that hangs on it."""
+        bodies = [body]
+        for one in bodies:
+            bodies += self.children_of(one)
+        return bodies
+
     def children_of(self, body: str) -> list[str]:
         """Return the bodies joined to one directly."""
         return [child for child, parent in self.above.items() if parent == body]
@@ -61,6 +69,28 @@ class JointTree:
                 top = self.above[top]
             found[name] = top
         return found
+
+
+_MOTIONS: Mapping[str, Motion] = {"revolute": "hinge", "prismatic": "slide"}
+
+
+def explain_untried(joint: Joint) -> str | None:
+    """Return why a joint is not moved through its range: that it follows another one, or has none; None where it is."""
+    if joint.kind not in _MOTIONS or joint.coupling is not None:
+        return f"the joint {joint.name or joint.child!r} is one that is not tried: {joint.kind}"
+    if joint.limits is None and joint.kind == "prismatic":
+        return f"the joint {joint.name or joint.child!r} slides without limits"
+    return None
+
+
+def place_joint(joint: Joint, upright: Floats) -> tuple[Place, Motion]:
+    """Return where a joint is and its range, a full turn without limits, and how it moves; upright: the rotation (3, 3)
+    that the hulls are turned by."""
+    motion = _MOTIONS[joint.kind]
+    low, high = joint.limits or (0.0, 2 * np.pi)
+    scale = float(np.degrees(1.0)) if motion == "hinge" else 1.0
+    axis = upright @ joint.axis
+    return Place(upright @ joint.anchor, np.array([low * scale, high * scale, 0.0]), frame_of_axis(axis)), motion
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ def compile_model(mesh: SymbolicMesh, tree: mechanism.JointTree, *, everything: 
     if everything:
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
-    shown = _pose_on_floor(mesh)
+    shown = pose_on_floor(mesh)
     tops = {tree.root_of(hull.body) for hull in mesh.hulls}
     for root in tree.bodies:
         if root in tops:
@@ -61,8 +61,8 @@ def _filter_contacts(spec: Any, touching: mechanism.ContactRules) -> None:
         spec.add_pair(geomname1=f"hull {first}", geomname2=f"hull {second}")
 
 
-def _pose_on_floor(mesh: SymbolicMesh) -> Pose:
-    """The pose shown_T_root that puts the lowest point of all hulls on the plane, with Z up."""
+def pose_on_floor(mesh: SymbolicMesh) -> Pose:
+    """Return the pose shown_T_root that puts the lowest point of all hulls on the plane, with Z up."""
     turn = _UPRIGHT if mesh.asset and mesh.asset.up == "y" else Pose.identity()
     down = -turn.rotation[2]
     lowest = min(float(turn.apply(hull.shape.support(down)[None])[0, 2]) for hull in mesh.hulls)

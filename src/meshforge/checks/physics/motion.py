@@ -1,8 +1,8 @@
 """Motion of hulls themselves: dropped from 1 cm as one rigid body they end upright; what a joint moves goes through its
 range and does not touch the rest."""
 
-from collections.abc import Sequence
-from typing import Any, Literal
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -11,14 +11,16 @@ from scipy.spatial import ConvexHull, QhullError
 from meshforge.checks.physics.scene import (
     BREAKS_DOWN,
     Failure,
+    Motion,
     Place,
+    Touch,
     add_hulls,
     add_shape,
     advance,
     blank,
     calm,
     collide,
-    deepest,
+    list_touches,
     mm,
     weigh,
 )
@@ -93,7 +95,6 @@ _ARC = 2.0  # of the tolerance, how far the outermost point goes between two loo
 _FINEST, _COARSEST = 0.25, 0.5  # degrees between two looks
 _MOST_LOOKS = 2000
 
-Motion = Literal["hinge", "slide"]
 NO_PAIRS: frozenset[frozenset[str]] = frozenset()
 
 
@@ -110,17 +111,29 @@ def try_swing(
     joint: through `at`, along its first axis; size: from where to where it goes, [degrees] of a hinge, [m] of a slide.
     apart: pairs of names of hulls that may be in each other.
     """
+    for at, touches in watch_joint(moving, rest, joint, touching, motion):
+        if touch := next((one for one in touches if not apart or one.pair not in apart), None):
+            text = f"{describe_place(at, motion)} {touch.mover} is {mm(touch.depth)} in {touch.other}"
+            return Failure(text, touch.names([*moving, *rest]))
+    return None
+
+
+def describe_place(at: float, motion: Motion) -> str:
+    """Return where on its way a joint is, in words."""
+    return f"at {at:.0f} degrees" if motion == "hinge" else f"pulled out by {mm(at)}"
+
+
+def watch_joint(
+    moving: Sequence[Hull], rest: Sequence[Hull], joint: Place, touching: float, motion: Motion
+) -> Iterator[tuple[float, Iterator[Touch]]]:
+    """Yield where a joint is on its way, as `try_swing` has it, and what is deeper in each other there than `touching`
+    [m], the deepest first."""
     model = _build_joint(moving, rest, joint, motion)
     data = mujoco.MjData(model)
     for at in _list_looks(moving, joint, touching, motion):
         data.qpos[0] = np.radians(at) if motion == "hinge" else at
         collide(model, data)
-        if touch := deepest(model, data, touching, apart):
-            where = f"at {at:.0f} degrees" if motion == "hinge" else f"pulled out by {mm(at)}"
-            return Failure(
-                f"{where} {touch.mover} is {mm(touch.depth)} in {touch.other}", touch.names([*moving, *rest])
-            )
-    return None
+        yield float(at), list_touches(model, data, touching)
 
 
 def _build_joint(moving: Sequence[Hull], rest: Sequence[Hull], joint: Place, motion: Motion) -> Any:

@@ -1,9 +1,9 @@
 """MuJoCo scenes of hulls where they are, Z up, and objects that are tried on them; what touches what there, how deep,
 and why something does not work."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -14,6 +14,10 @@ TOLERANCE = 0.002
 """What counts as touching, of the diagonal of an asset."""
 
 
+Motion = Literal["hinge", "slide"]
+"""How a joint moves."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Place:
     """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m], as a use says; axes: the columns of
@@ -22,6 +26,14 @@ class Place:
     at: Floats
     size: Floats
     axes: Floats
+
+
+def frame_of_axis(axis: Floats) -> Floats:
+    """Return a rotation (3, 3) whose first column is an axis (3,)."""
+    helper = np.eye(3)[int(np.abs(axis).argmin())]
+    second = np.cross(axis, helper)
+    second /= np.linalg.norm(second)
+    return np.stack([axis, second, np.cross(axis, second)], axis=1)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -149,13 +161,19 @@ def place(model: Any, data: Any, name: str, at: Floats, rotation: Floats | None 
 BREAKS_DOWN = "the simulation breaks down"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Touch:
-    """Two geoms by name, the object first, and how deep they are in each other [m]."""
+    """Two geoms by name, the object first, how deep they are in each other [m], and where: (3,)."""
 
     mover: str
     other: str
     depth: float
+    at: Floats
+
+    @property
+    def pair(self) -> frozenset[str]:
+        """The names of the two hulls."""
+        return frozenset(name.rpartition(" (")[0] for name in (self.mover, self.other))
 
     def names(self, hulls: Iterable[Hull]) -> tuple[str, ...]:
         """Return the names of those hulls that touch."""
@@ -174,16 +192,19 @@ def collide(model: Any, data: Any) -> None:
 def deepest(model: Any, data: Any, least: float, apart: frozenset[frozenset[str]] = frozenset()) -> Touch | None:
     """Return the deepest contact deeper than `least` [m], None where there is none; apart: pairs of names of hulls
     whose contacts do not count."""
+    return next((touch for touch in list_touches(model, data, least) if not apart or touch.pair not in apart), None)
+
+
+def list_touches(model: Any, data: Any, least: float) -> Iterator[Touch]:
+    """Yield the contacts deeper than `least` [m], the deepest first."""
     contact = data.contact
     for k in np.argsort(contact.dist, kind="stable"):
         depth = -float(contact.dist[k])
         if depth <= least:
-            return None
+            return
         pair = sorted(map(int, contact.geom[k]), key=lambda geom: -int(model.geom_contype[geom]))
         mover, other = (model.geom(geom).name for geom in pair)
-        if not apart or frozenset(name.rpartition(" (")[0] for name in (mover, other)) not in apart:
-            return Touch(mover, other, depth)
-    return None
+        yield Touch(mover, other, depth, contact.pos[k].copy())
 
 
 def advance(model: Any, data: Any, seconds: float) -> bool:

@@ -10,12 +10,23 @@ import numpy as np
 
 from meshforge.checks.base import CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.legality import check_legality
-from meshforge.checks.physics.mechanism import ContactRules, JointTree, check_masses
-from meshforge.checks.physics.model import FLOOR, STEP, compile_model
-from meshforge.common import join_names, pluralize, require_mujoco
-from meshforge.engines import Finding
-from meshforge.geometry import Floats
-from meshforge.symbolic import SymbolicMesh
+from meshforge.checks.physics.mechanism import JointTree, check_masses
+from meshforge.checks.physics.model import STEP, compile_model, pose_on_floor
+from meshforge.checks.physics.overlaps import (
+    DEEP,
+    WITHOUT_BODIES,
+    BodyOverlap,
+    LoosePiece,
+    find_body_overlaps,
+    find_loose_pieces,
+    report_loose_pieces,
+    report_overlaps,
+)
+from meshforge.checks.physics.sweep import JointBlock, check_joint_limits, find_blocks, report_blocks
+from meshforge.common import GeometryError, join_names, pluralize, require_mujoco
+from meshforge.engines import Finding, Severity
+from meshforge.geometry import Floats, convex_hull
+from meshforge.symbolic import Hull, Joint, SymbolicMesh
 
 BEFORE = "physics_before"
 """The key of the physics of the hulls before an edit."""
@@ -23,8 +34,8 @@ SETTLE_SECONDS, WATCH_SECONDS = 6.0, 0.5
 """Seconds that an asset has at most to come to rest, and then is watched."""
 JITTER = 0.005
 """Of the speed of a fall from the asset's own height, the share that counts as jitter at rest."""
-DEEP = 0.005
-"""Hulls of two bodies that reach into each other by more than this share of the diagonal are findings."""
+APART = 0.05
+"""Of the diagonal: a free body that moves farther from the heaviest one has come off."""
 TILT = 15.0
 """Degrees from which on an asset has fallen over."""
 HULLS = 1000
@@ -42,7 +53,8 @@ class Rest:
     jitter: root mean square of the speed of its shakiest body about its mean, at half its size from the centre [m/s];
     fastest: the highest speed of any body in the first 0.2 s [m/s]; moved: how far it wandered sideways [m];
     tilt: how far it turned from upright [degrees]; sunk: how deep it reaches into the plane at the end [m];
-    mass: of all bodies, by the file, or of water where that tells none that can be [kg].
+    mass: of all bodies, by the file, or of water where that tells none that can be [kg]; apart: bodies that come off;
+    may_lie: whether it may not be meant to stand: it falls as it is shown, too, or its file does not say what is up.
     """
 
     jitter: float
@@ -51,17 +63,25 @@ class Rest:
     tilt: float
     sunk: float
     mass: float
+    apart: tuple[str, ...] = ()
+    may_lie: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Physics(Measure):
-    """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`."""
+    """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`.
+
+    joints: whose limits are looked at; blocks: what stands in their way; loose: pieces that touch nothing.
+    """
 
     scale: float
     rest: Rest | None
     overlaps: tuple[BodyOverlap, ...]
     refused: str | None
     mass_problems: tuple[Finding, ...]
+    joints: tuple[Joint, ...] = ()
+    blocks: tuple[JointBlock, ...] = ()
+    loose: tuple[LoosePiece, ...] = ()
 
     @property
     def description(self) -> str:
@@ -85,6 +105,8 @@ class Physics(Measure):
             "rest": asdict(self.rest) if self.rest else None,
             "refused": self.refused,
             "overlaps": [asdict(overlap) for overlap in self.overlaps],
+            "blocks": [asdict(block) for block in self.blocks],
+            "loose": [asdict(piece) for piece in self.loose],
         }
 
 
@@ -114,16 +136,18 @@ def simulate(mesh: SymbolicMesh) -> Physics:
         return Physics(0.0, None, (), "there is no hull", mass_problems)
     if len(sound.hulls) > HULLS:
         return Physics(sound.diagonal, None, (), f"more than {HULLS:,} hulls", mass_problems)
-    tree = JointTree.of(sound)
+    tree, joints = JointTree.of(sound), sound.asset.mechanism.joints if sound.asset else ()
     if len(tree.bodies) > BODIES:
         return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", mass_problems)
     try:
         overlaps = find_body_overlaps(sound, tree)
         rest = _simulate_rest(sound, tree)
+        blocks = find_blocks(sound, tree, DEEP * sound.diagonal)
     except ValueError as error:  # MuJoCo's compiler
         reason = str(error).splitlines()[0].removeprefix("Error: ")
         return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {reason}", mass_problems)
-    return Physics(sound.diagonal, rest, overlaps, None if rest else "the simulation blew up", mass_problems)
+    refused, loose = None if rest else "the simulation blew up", find_loose_pieces(sound, tree)
+    return Physics(sound.diagonal, rest, overlaps, refused, mass_problems, joints, blocks, loose)
 
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
@@ -159,8 +183,26 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     turned = [np.clip((upright[k] @ ends[k].T)[2, 2], -1, 1) for k in roots]
     moved = max(float(np.linalg.norm((data.xipos[moving][k] - start[k])[:2])) for k in roots)
     tilt, mass = float(np.degrees(np.arccos(min(turned)))), float(model.body_subtreemass[0])
+    ways = data.xipos[moving][roots] - start[roots]
+    heaviest = int(np.argmax(model.body_subtreemass[moving[roots]]))
+    gone = np.linalg.norm(ways - ways[heaviest], axis=1) > APART * mesh.diagonal
+    apart = tuple(model.body(int(moving[k])).name.removeprefix("body ") for k in np.array(roots)[gone])
     sunk = max((-float(c.dist) for c in data.contact[: data.ncon] if 0 in c.geom), default=0.0)
-    return Rest(jitter, fastest, moved, tilt, sunk, mass)
+    return Rest(jitter, fastest, moved, tilt, sunk, mass, apart, tilt > TILT and _may_lie(mesh))
+
+
+def _may_lie(mesh: SymbolicMesh) -> bool:
+    """Whether nobody knows that a mesh is meant to stand: also by the convex hull of what is shown."""
+    from meshforge.checks.physics.motion import try_stand  # lazy: MuJoCo takes 0.3 s
+
+    surfaces = [surface.vertices[np.unique(surface.faces)] for surface in mesh.asset.visuals] if mesh.asset else []
+    if not sum(map(len, surfaces)):
+        return mesh.asset is not None and mesh.asset.format in WITHOUT_BODIES
+    try:
+        shown = convex_hull(pose_on_floor(mesh).apply(np.concatenate(surfaces)), name="what is shown")
+    except GeometryError:
+        return False
+    return try_stand([Hull("shown", "", shown)], mesh.diagonal) is not None
 
 
 def _report_start(found: Physics) -> Iterator[Finding]:
@@ -170,14 +212,10 @@ def _report_start(found: Physics) -> Iterator[Finding]:
         yield Finding("physics-unstable", "error", (), message, "Look at overlaps of bodies, masses and thin hulls.")
     elif found.refused and "refuses" in found.refused:
         yield Finding("physics-refused", "error", (), found.refused, "Fix what the message names.")
-    deep = [overlap for overlap in found.overlaps if overlap.depth > DEEP * found.scale and not overlap.excluded]
-    if not deep:
-        return
-    overlaps = [f"{o.hulls[0]} and {o.hulls[1]} ({o.depth:.3g} m{', joined' if o.joined else ''})" for o in deep]
-    names = tuple(dict.fromkeys(name for overlap in deep for name in overlap.hulls))
-    message = f"hulls of bodies that move against each other overlap at rest pose: {join_names(overlaps)}"
-    remedy = "Shrink or delete one, or exclude the pair from contact in the file."
-    yield Finding("physics-overlap", "warning", names, message, remedy)
+    yield from check_joint_limits(found.joints)
+    yield from report_overlaps(found.overlaps, found.scale)
+    yield from report_blocks(found.blocks)
+    yield from report_loose_pieces(found.loose)
 
 
 def _report_unrest(found: Physics) -> Iterator[Finding]:
@@ -191,48 +229,10 @@ def _report_unrest(found: Physics) -> Iterator[Finding]:
     if rest.fastest > fall:
         message = f"it is thrown apart at the start, at {rest.fastest:.2g} m/s"
         yield Finding("physics-thrown", "warning", (), message, "Hulls of different bodies overlap: shrink one.")
+    if rest.apart:
+        message = f"it falls apart, as no joint holds {join_names(rest.apart)}"
+        yield Finding("physics-apart", "error", (), message, "Join it by a joint, a fixed one where it does not move.")
     if rest.tilt > TILT:
         message = f"it does not stand: it turned by {rest.tilt:.0f}°"
-        yield Finding("physics-tilt", "warning", (), message, "Give it a flat base; or it is not meant to stand.")
-
-
-@dataclass(frozen=True, slots=True)
-class BodyOverlap:
-    """Two bodies that reach into each other at rest pose; depth: at most [m]; joined: whether a joint holds them.
-
-    excluded: whether the file lets these hulls pass through each other, so that it does no harm.
-    """
-
-    bodies: tuple[str, str]
-    hulls: tuple[str, str]
-    depth: float
-    joined: bool
-    excluded: bool = False
-
-
-def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap, ...]:
-    """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
-
-    Contacts that the file excludes count for themselves. Raises ValueError where MuJoCo refuses the model.
-    """
-    import mujoco  # lazy: 0.3 s, only the physics checks need it
-
-    model = compile_model(mesh, tree, everything=True)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    names = [model.geom(g).name for g in range(model.ngeom)]
-    numbers = [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
-    rigid, touching = tree.rigid_roots(), ContactRules(mesh)
-    found: dict[tuple[str, str, bool], BodyOverlap] = {}
-    for contact in data.contact[: data.ncon]:
-        first, second = sorted(numbers[int(g)] for g in contact.geom)
-        if first < 0 or contact.dist >= 0:
-            continue
-        a, b = mesh.hulls[first], mesh.hulls[second]
-        excluded = not touching.may_touch(first, second)
-        key = a.body, b.body, excluded
-        if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
-            continue
-        joined = tree.above.get(a.body) == b.body or tree.above.get(b.body) == a.body
-        found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), joined, excluded)
-    return tuple(sorted(found.values(), key=lambda overlap: (-overlap.depth, overlap.bodies)))
+        severity: Severity = "warning" if rest.may_lie else "error"
+        yield Finding("physics-tilt", severity, (), message, "Give it a flat base; or it is not meant to stand.")

@@ -10,7 +10,6 @@ import warnings as python_warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
 from meshforge.common import AssetError
 from meshforge.formats.libraries import mujoco
@@ -32,35 +31,6 @@ KeepAttributes = Callable[[MjcfNode], Mapping[str, str] | None]
 
 _FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
 _SCALING = {"compiler": ("settotalmass", "alignfree"), "freejoint": ("align",), "joint": ("align",)}
-
-
-@dataclass(frozen=True, slots=True)
-class MujocoLoad:
-    """What MuJoCo answers of a file as it is. version: of MuJoCo; refusal: why, None where it compiles the file."""
-
-    version: str
-    refusal: str | None
-    warnings: tuple[str, ...] = ()
-
-
-def try_in_mujoco(path: Path) -> MujocoLoad:
-    """Compile an MJCF or a URDF with MuJoCo, with all files that it names.
-
-    Its warnings are collected, and no log is written. Raises ImportError where MuJoCo is not installed.
-    """
-    version, refusal = str(mujoco.__version__), None
-    warnings: list[str] = []
-    with collect_warnings(warnings):
-        try:
-            mujoco.MjModel.from_xml_path(str(path))
-        except failure_types() as error:
-            refusal = _join_lines(str(error)) or "it does not say why"
-    return MujocoLoad(version, refusal, tuple(dict.fromkeys(map(_join_lines, warnings))))
-
-
-def _join_lines(message: str) -> str:
-    lines = [line.strip() for line in message.replace("XML Error: ", "").splitlines() if line.strip()]
-    return "; ".join(line.removeprefix("Error: ") for line in lines)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

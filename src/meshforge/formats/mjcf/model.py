@@ -114,21 +114,8 @@ class MjcfModel:
         return CollisionPiece(shape) if shape else CollisionPiece(None, f"{kind.name} is no geometry that is known")
 
     def primitive_of(self, geom: int) -> geometry.Shape | None:
-        """Return the shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
-        kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
-        size = self.model.geom_size[geom].astype(np.float64)
-        match kinds(int(self.model.geom_type[geom])):
-            case kinds.mjGEOM_BOX:
-                return geometry.Box(pose, size)
-            case kinds.mjGEOM_SPHERE:
-                return geometry.Sphere(pose, float(size[0]))
-            case kinds.mjGEOM_CAPSULE:
-                return geometry.Capsule(pose, float(size[0]), float(size[1]))
-            case kinds.mjGEOM_CYLINDER:
-                return geometry.Cylinder(pose, float(size[0]), float(size[1]))
-            case kinds.mjGEOM_ELLIPSOID:
-                return geometry.Ellipsoid(pose, size)
-        return None
+        """Return the shape of a geom that is no mesh."""
+        return read_primitive(self.model, geom, self.geom_poses[geom])
 
     def mesh_surface(self, mesh: int, root_t_mesh: geometry.Pose) -> Surface:
         """Return the triangles of a mesh in the root frame."""
@@ -162,6 +149,23 @@ class MjcfModel:
         first, count = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_vertnum[mesh])
         vertices: geometry.Floats = self.model.mesh_vert[first : first + count].astype(np.float64)
         return vertices
+
+
+def read_primitive(model: mujoco.MjModel, geom: int, pose: geometry.Pose) -> geometry.Shape | None:
+    """Return the shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
+    kinds, size = mujoco.mjtGeom, model.geom_size[geom].astype(np.float64)
+    match kinds(int(model.geom_type[geom])):
+        case kinds.mjGEOM_BOX:
+            return geometry.Box(pose, size)
+        case kinds.mjGEOM_SPHERE:
+            return geometry.Sphere(pose, float(size[0]))
+        case kinds.mjGEOM_CAPSULE:
+            return geometry.Capsule(pose, float(size[0]), float(size[1]))
+        case kinds.mjGEOM_CYLINDER:
+            return geometry.Cylinder(pose, float(size[0]), float(size[1]))
+        case kinds.mjGEOM_ELLIPSOID:
+            return geometry.Ellipsoid(pose, size)
+    return None
 
 
 def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:

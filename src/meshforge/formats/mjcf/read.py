@@ -60,6 +60,7 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
         visuals=read_visuals(compiled),
         files=found,
         missing=missing,
+        needed=missing,  # MuJoCo opens no model without them
         notes=_collect_notes(compiled, refusal),
         mechanism=read_mechanism(compiled),
     )

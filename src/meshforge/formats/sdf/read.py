@@ -212,6 +212,7 @@ def _read_joint(tree: ModelTree, scope: ModelScope, element: Element, name: str,
     base, place = at.base or text_of(element, "child"), f"{scope.where}:{at.line}"
     pose = tree.frames.pose_of(scope.path, base, place) @ at.pose
     limit, dynamics = (axis.first("limit"), axis.first("dynamics")) if axis else (None, None)
+    limits = _read_limits(limit) if type_ in ("revolute", "prismatic") else None
     return Joint(
         name,
         _KINDS[type_],
@@ -219,11 +220,12 @@ def _read_joint(tree: ModelTree, scope: ModelScope, element: Element, name: str,
         child,
         pose.translation,
         _read_axis(tree, scope, axis, pose),
-        _read_limits(limit) if type_ in ("revolute", "prismatic") else None,
+        limits if limits and limits[0] < limits[1] else None,
         damping=_number_or(dynamics, "damping", 0.0),
         friction=_number_or(dynamics, "friction", 0.0),
         effort=_positive_or_none(_read_number(limit, "effort")),
         velocity=_positive_or_none(_read_number(limit, "velocity")),
+        empty_limits=limits if limits and not limits[0] < limits[1] else None,
         coupling=_read_coupling(scope, axis.first("mimic")) if axis else None,
     )
 
@@ -254,9 +256,10 @@ def _read_axis(tree: ModelTree, scope: ModelScope, axis: Element | None, pose: P
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:
+    """The limits as they are written, the lower one first; None where there are none."""
     lower, upper = _read_number(limit, "lower"), _read_number(limit, "upper")
     low, high = -np.inf if lower is None else lower, np.inf if upper is None else upper
-    if not low < high or low <= -_ENDLESS or high >= _ENDLESS:
+    if low <= -_ENDLESS or high >= _ENDLESS:
         return None
     return low, high
 

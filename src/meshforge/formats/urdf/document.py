@@ -189,6 +189,7 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
         friction=_read_number(dynamics, "friction") or 0.0,
         effort=_read_number(limit, "effort") or None,
         velocity=_read_number(limit, "velocity") or None,
+        empty_limits=_read_empty_limits(limit) if type_ in ("revolute", "prismatic") else None,
         coupling=_read_coupling(element.first("mimic")),
     )
 
@@ -204,6 +205,12 @@ def _read_coupling(mimic: Element | None) -> Coupling | None:
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:
     lower, upper = _read_number(limit, "lower") or 0.0, _read_number(limit, "upper") or 0.0
     return (lower, upper) if lower < upper else None
+
+
+def _read_empty_limits(limit: Element | None) -> tuple[float, float] | None:
+    if limit is None or not limit.attributes.keys() & {"lower", "upper"} or _read_limits(limit) is not None:
+        return None
+    return _read_number(limit, "lower") or 0.0, _read_number(limit, "upper") or 0.0
 
 
 def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | None:

@@ -63,10 +63,14 @@ def _read_joint(scene: UsdStage, prim: Any, bodies: StageBodies) -> Joint | None
         parent, child, first, second = child, parent, second, first
         axis = -axis
     unit = np.pi / 180 if kind == "revolute" else scene.metres
+    empty = limits if limits and limits[0] > limits[1] else None
+    limits = None if empty else limits
     if limits is not None:
         now = _joint_position(kind, axis, first, second, scene.metres)
         limits = limits[0] * unit - now, limits[1] * unit - now
-    return Joint(prim.GetName(), kind, parent, child, second.translation, first.rotation @ axis, limits)
+    return Joint(
+        prim.GetName(), kind, parent, child, second.translation, first.rotation @ axis, limits, empty_limits=empty
+    )
 
 
 def _read_end(scene: UsdStage, prim: Any, side: str, bodies: StageBodies) -> tuple[str, Pose]:
@@ -88,7 +92,7 @@ def _read_freedom(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats,
     kind = _KINDS.get(str(prim.GetTypeName()))
     axis = _AXES.get(str(scene.get(prim.GetAttribute("physics:axis")) or "X"), _AXES["X"])
     low, high = (read_number(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
-    limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
+    limited = kind in ("revolute", "prismatic") and low is not None and high is not None
     return kind, axis, (low, high) if limited and low is not None and high is not None else None
 
 

@@ -39,7 +39,10 @@ def read_usd(path: Path) -> Asset:
         raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
     more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
     notes = (*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more)
-    return replace(asset, files=files, missing=missing, notes=notes)
+    layers = tuple(
+        text for text in missing if Path(text).suffix.lower() in (*stage.LAYER_SUFFIXES, stage.PACKAGE_SUFFIX)
+    )
+    return replace(asset, files=files, missing=missing, needed=layers, notes=notes)
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:

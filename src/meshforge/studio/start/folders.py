@@ -171,7 +171,9 @@ def _wait_until(future: Future[_Look], until: float | None) -> _Look:
 
 def _look(path: Path) -> _Look:
     try:
-        sources = [source for source in find_sources(read(path)) if not source.is_hopeless]
+        asset = read(path)
+        asset.refuse_missing()
+        sources = [source for source in find_sources(asset) if not source.is_hopeless]
         known = [source.surface.parts for source in sources if source.surface.parts and source.surface.parts.is_divided]
         names = dict.fromkeys(parts.names[k] for parts in known for k in parts.numbers)
         return _Look(len(sources), tuple(names)[:MOST_PARTS])

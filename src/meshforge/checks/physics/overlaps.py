@@ -1,0 +1,194 @@
+"""Bodies that reach into each other before anything moves, and pieces of a body that touch nothing of it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshforge import geometry
+from meshforge.checks.physics.mechanism import ContactRules, JointTree
+from meshforge.checks.physics.model import FLOOR, compile_model, pose_on_floor
+from meshforge.checks.physics.scene import mm
+from meshforge.checks.physics.sweep import NEAR_AXIS
+from meshforge.common import join_names
+from meshforge.engines import Finding, Severity
+from meshforge.geometry import Floats
+from meshforge.symbolic import Hull, Joint, SymbolicMesh, contact_graph
+
+WITHOUT_BODIES = ("obj", "stl", "ply", "wrl", "folder")
+"""Formats that say neither what is a body nor what is up: their files may be parts."""
+DEEP = 0.005
+"""Hulls of two bodies that reach into each other by more than this share of the diagonal are findings."""
+JAMMED = 0.02
+"""Of the diagonal: bodies that a joint holds may be in each other by so much, as most engines let these pass; drawers
+are in sound cabinets of the corpus by 1.7%."""
+WITHIN = 0.5
+"""Of the volume of the smaller of two joined bodies: one that is in the other by more leaves no room between them."""
+FLOATING, LOOSE = 0.05, 0.02
+"""Of the diagonal: the gap around a piece that touches nothing of its body, an error and a warning."""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyOverlap:
+    """Two bodies that reach into each other at rest pose; depth: at most [m]; joined: whether a joint holds them.
+
+    excluded: whether the file lets these hulls pass through each other, so that it does no harm; share: of the smaller
+    body's volume, what is in the other one, where they are joined.
+    """
+
+    bodies: tuple[str, str]
+    hulls: tuple[str, str]
+    depth: float
+    joined: bool
+    excluded: bool = False
+    share: float = 0.0
+
+
+def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap, ...]:
+    """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
+
+    Contacts that the file excludes count for themselves. Around the axis of a hinge, or the centre of a ball, those of
+    the two bodies that it joins do not count. Raises ValueError where MuJoCo refuses the model.
+    """
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
+
+    model = compile_model(mesh, tree, everything=True)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    names = [model.geom(g).name for g in range(model.ngeom)]
+    numbers = [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
+    rigid, touching, back = tree.rigid_roots(), ContactRules(mesh), pose_on_floor(mesh).inverse()
+    found: dict[tuple[str, str, bool], BodyOverlap] = {}
+    between: dict[tuple[str, str], list[tuple[Joint, float]]] = {}
+    for contact in data.contact[: data.ncon]:
+        first, second = sorted(numbers[int(g)] for g in contact.geom)
+        if first < 0 or contact.dist >= 0:
+            continue
+        a, b = mesh.hulls[first], mesh.hulls[second]
+        excluded = not touching.may_touch(first, second)
+        key = a.body, b.body, excluded
+        if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
+            continue
+        pair = rigid[a.body], rigid[b.body]
+        if pair not in between:
+            between[pair] = _find_joints_between(mesh, tree, rigid, *pair)
+        joints, at = between[pair], back.apply(np.array(contact.pos)[None])
+        if not any(_measure_distance(joint, at) <= near for joint, near in joints):
+            found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), bool(joints), excluded)
+    least = DEEP * mesh.diagonal
+    measured = (
+        replace(one, share=_measure_share(mesh, one)) if one.joined and one.depth > least else one
+        for one in found.values()
+    )
+    return tuple(sorted(measured, key=lambda overlap: (-overlap.depth, overlap.bodies)))
+
+
+def _find_joints_between(
+    mesh: SymbolicMesh, tree: JointTree, rigid: Mapping[str, str], first: str, second: str
+) -> list[tuple[Joint, float]]:
+    """The joints of two rigid groups of bodies, by their highest bodies, one of which hangs on the other; each with the
+    distance from its axis, or from the centre of a ball, within which the two may be in each other [m]."""
+    for child, parent in ((first, second), (second, first)):
+        if child in tree.above and rigid[tree.above[child]] == parent:
+            below = set(tree.list_below(child))
+            hulls = [hull for hull in mesh.hulls if hull.body in below]
+            return [
+                (joint, NEAR_AXIS * max(_measure_distance(joint, hull.vertices) for hull in hulls))
+                if joint.kind in ("revolute", "ball")
+                else (joint, -1.0)
+                for joint in tree.joints[child]
+            ]
+    return []
+
+
+def _measure_distance(joint: Joint, points: Floats) -> float:
+    """From the axis of a hinge, or the centre of a ball, to the farthest of points (n, 3) [m]."""
+    off = points - joint.anchor
+    return float(np.linalg.norm(np.cross(off, joint.axis) if joint.kind == "revolute" else off, axis=1).max())
+
+
+def _measure_share(mesh: SymbolicMesh, overlap: BodyOverlap) -> float:
+    """Of the volume of the smaller of two bodies, what is in the other one."""
+    small, large = sorted(
+        ([hull for hull in mesh.hulls if hull.body == body] for body in overlap.bodies),
+        key=lambda hulls: sum(hull.volume for hull in hulls),
+    )
+    shared = sum(
+        min(hull.volume, sum(geometry.overlap_volume(hull.shape, other.shape) for other in _near(hull, large)))
+        for hull in small
+    )
+    return shared / sum(hull.volume for hull in small)
+
+
+def _near(hull: Hull, others: Sequence[Hull]) -> list[Hull]:
+    return [other for other in others if hull.aabb.touches(other.aabb)]
+
+
+def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[Finding]:
+    """Yield errors on bodies that cannot be meant to be in each other, warnings on others; scale: the diagonal [m]."""
+    deep = [one for one in overlaps if one.depth > DEEP * scale and not one.excluded]
+    wrong = [one for one in deep if not one.joined or one.depth > JAMMED * scale or one.share > WITHIN]
+    doubtful = [one for one in deep if one not in wrong]
+    kinds: tuple[tuple[Severity, list[BodyOverlap]], ...] = (("error", wrong), ("warning", doubtful))
+    for severity, some in kinds:
+        texts = [f"{o.hulls[0]} and {o.hulls[1]} ({mm(o.depth)}{', joined' if o.joined else ''})" for o in some]
+        if texts:
+            names = tuple(dict.fromkeys(name for overlap in some for name in overlap.hulls))
+            message = f"hulls of bodies that move against each other overlap at rest: {join_names(texts)}"
+            remedy = "Shrink or delete one, or exclude the pair from contact in the file."
+            yield Finding("physics-overlap", severity, names, message, remedy)
+
+
+@dataclass(frozen=True, slots=True)
+class LoosePiece:
+    """Hulls that touch each other, and nothing else of their rigid body; gap: around them, as a share of the diagonal,
+    `FLOATING` at most."""
+
+    body: str
+    hulls: tuple[str, ...]
+    gap: float
+
+
+def find_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> tuple[LoosePiece, ...]:
+    """Return the pieces of bodies that touch nothing of them.
+
+    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them,
+    nor of formats in which all is one body because nothing else is said.
+    """
+    if mesh.asset is not None and (mesh.asset.non_convex or mesh.asset.format in ("gltf", *WITHOUT_BODIES)):
+        return ()
+    rigid, groups = tree.rigid_roots(), dict[str, list[int]]()
+    for k, hull in enumerate(mesh.hulls):
+        groups.setdefault(rigid[hull.body], []).append(k)
+    graph = contact_graph([hull.shape for hull in mesh.hulls], FLOATING * mesh.diagonal)
+    found = list[LoosePiece]()
+    for body, members in groups.items():
+        pairs = {pair: gap for pair, gap in graph.items() if {*pair} <= {*members}}
+        parts = _split(members, [pair for pair, gap in pairs.items() if gap <= LOOSE * mesh.diagonal])
+        for part in sorted(parts, key=lambda part: -sum(mesh.hulls[k].volume for k in part))[1:]:
+            out = [gap for pair, gap in pairs.items() if len({*pair} & {*part}) == 1]
+            gap = min(out, default=FLOATING * mesh.diagonal) / mesh.diagonal
+            if body != "world":
+                found.append(LoosePiece(body, tuple(mesh.hulls[k].name for k in part), gap))
+    return tuple(found)
+
+
+def _split(members: Sequence[int], pairs: Sequence[tuple[int, int]]) -> list[list[int]]:
+    """The members in groups, those of a pair in one."""
+    group = {k: [k] for k in members}
+    for first, second in pairs:
+        if group[first] is not group[second]:
+            group[first] += group[second]
+            group |= dict.fromkeys(group[second], group[first])
+    return list({id(one): one for one in group.values()}.values())
+
+
+def report_loose_pieces(loose: Sequence[LoosePiece]) -> Iterator[Finding]:
+    """Yield errors on pieces that float, warnings on those that are nearer."""
+    kinds: tuple[tuple[Severity, bool], ...] = (("error", True), ("warning", False))
+    for severity, floats in kinds:
+        if some := [piece for piece in loose if (piece.gap >= FLOATING) is floats]:
+            texts = [f"{join_names(piece.hulls, 3)} of {piece.body}" for piece in some]
+            names = tuple(name for piece in some for name in piece.hulls)
+            message = f"pieces that touch nothing of their body: {join_names(texts, 3)}"
+            yield Finding("physics-loose", severity, names, message, "Move them, join them by a hull, or delete them.")
