@@ -153,7 +153,7 @@ def try_asset(asset: str, kinds: Sequence[str]) -> list[Row]:
             found = _check([base, *(file for file, _ in some.values())], engine)
             own = found[base]
             for kind, (file, what) in some.items():
-                new = [one for one in found[file] if _key(one) not in {*map(_key, own)} and _is_about(one, what)]
+                new = [one for one in found[file] if _is_new(one, own, what)]
                 rows.append(
                     {
                         "kind": kind,
@@ -177,15 +177,14 @@ def _check(paths: Sequence[Path], engine: str | None) -> dict[Path, list[Finding
     return found
 
 
-def _key(finding: Finding) -> tuple[str, tuple[str, ...]]:
-    return finding[0], finding[2]
-
-
-def _is_about(finding: Finding, what: Planted) -> bool:
+def _is_new(finding: Finding, own: Sequence[Finding], what: Planted) -> bool:
+    """Whether an asset without the defect has no such finding, and it is about the defect; of changes that give hulls
+    other names, whether it has none by that rule."""
+    rule, _, hulls, message = finding
     if not (what.hulls or what.bodies):
-        return True
-    _, _, hulls, message = finding
-    return not hulls or bool(what.hulls & {*hulls}) or any(body and body in message for body in what.bodies)
+        return all(one[0] != rule for one in own)
+    is_about = not hulls or bool(what.hulls & {*hulls}) or any(body and body in message for body in what.bodies)
+    return is_about and all(one[:3:2] != (rule, hulls) for one in own)
 
 
 _COLUMNS = ("kind", "planted", "found, %", "as errors, %", "by")

@@ -83,7 +83,7 @@ class Subject:
 
 @dataclass(frozen=True, eq=False)
 class Planted:
-    """An asset with a defect, and the names of hulls and bodies that were changed."""
+    """An asset with a defect, and the names of hulls and bodies that were changed; none where all have other names."""
 
     mesh: SymbolicMesh
     hulls: frozenset[str] = frozenset()
@@ -368,7 +368,7 @@ DEFECTS: Mapping[str, Plant] = {
 
 
 def _turn_order(subject: Subject) -> Planted:
-    return replace(subject.put(subject.mesh.hulls[::-1]), hulls=frozenset(), bodies=frozenset())
+    return Planted(subject.put(subject.mesh.hulls[::-1]).mesh)
 
 
 def _cut_in_two(subject: Subject) -> Planted | None:
@@ -377,11 +377,16 @@ def _cut_in_two(subject: Subject) -> Planted | None:
     halves = cut(hull.shape, hull.aabb.center, normal)
     if halves[0] is None or halves[1] is None:
         return None
-    return subject.put([replace(hull, shape=halves[0]), Hull("other half", hull.body, halves[1])])
+    planted = subject.put([replace(hull, shape=halves[0]), Hull("other half", hull.body, halves[1])])
+    return Planted(planted.mesh)
 
 
 def _transform_all(change: Callable[[Hull], Shape]) -> Plant:
-    return lambda subject: subject.put([replace(hull, shape=change(hull)) for hull in subject.mesh.hulls])
+    def plant(subject: Subject) -> Planted:
+        planted = subject.put([replace(hull, shape=change(hull)) for hull in subject.mesh.hulls])
+        return Planted(planted.mesh)
+
+    return plant
 
 
 def _round(hull: Hull) -> Shape:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from meshforge.rendering import LengthUnit
 
+LEAST_SIZE, MOST_SIZE = 0.005, 50.0
+"""Diagonals of assets [m] at which gravity and grippers mean something; others are probably in another unit."""
 NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
 
 

@@ -10,6 +10,7 @@ from typing import Any, Literal, NoReturn, Self
 
 import numpy as np
 
+from meshforge.checks.base import LEAST_SIZE, MOST_SIZE
 from meshforge.checks.physics.scene import TOLERANCE, Failure, Place
 from meshforge.common import MeshForgeError, ProgramError, blame, describe_error
 from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
@@ -19,9 +20,6 @@ from meshforge.language.arguments import MissingOperation
 from meshforge.language.extractors.base import rename_in_extractor
 from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
-
-LEAST_SIZE, MOST_SIZE = 0.005, 50.0
-"""Diagonals of assets on which goals are tried [m]: gravity and grippers mean something there."""
 
 GoalOutcome = Literal["passed", "failed", "untried", "broken"]
 

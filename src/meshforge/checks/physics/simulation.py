@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.checks.base import CheckFindings, CheckSubject, Measure, MeasureCheck
+from meshforge.checks.base import LEAST_SIZE, MOST_SIZE, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.legality import check_legality
 from meshforge.checks.physics.mechanism import JointTree, check_masses
 from meshforge.checks.physics.model import STEP, compile_model, pose_on_floor
@@ -212,6 +212,9 @@ def _report_start(found: Physics) -> Iterator[Finding]:
         yield Finding("physics-unstable", "error", (), message, "Look at overlaps of bodies, masses and thin hulls.")
     elif found.refused and "refuses" in found.refused:
         yield Finding("physics-refused", "error", (), found.refused, "Fix what the message names.")
+    if found.rest and not LEAST_SIZE <= found.scale <= MOST_SIZE:
+        message = f"it is {found.scale:.3g} m large, so its file is probably in another unit"
+        yield Finding("physics-size", "warning", (), message, "Write the file in metres, or scale it where it is used.")
     yield from check_joint_limits(found.joints)
     yield from report_overlaps(found.overlaps, found.scale)
     yield from report_blocks(found.blocks)
