@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, explain_untried, place_joint
-from meshforge.checks.physics.scene import Place, Touch, mm
+from meshforge.checks.physics.scene import Place, mm
 from meshforge.common import join_names
 from meshforge.engines import Finding, Severity
 from meshforge.symbolic import Joint, SymbolicMesh
@@ -63,16 +63,13 @@ def _find_blocks(
     start = float(np.clip(0.0, *place.size[:2]))
     near = NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in moving) if motion == "hinge" else -1.0
     groups = {hull.name: rigid[hull.body] for hull in mesh.hulls}
-
-    def is_in_way(touch: Touch) -> bool:
-        return touch.pair not in apart and joint.measure_distance(touch.at[None]) > near
-
     for end in (float(end) for end in place.size[:2] if end != start):
-        way, known = Place(place.at, np.array([start, end, 0.0]), place.axes), None
+        way, known = Place(place.at, np.array([start, end, 0.0]), place.axes), apart
         for at, touches in watch_joint(moving, rest, way, least, motion):
-            seen = [touch for touch in touches if is_in_way(touch)]
-            known = {touch.pair for touch in seen} if known is None else known
-            if touch := next((touch for touch in seen if touch.pair not in known), None):
+            seen = [touch for touch in touches if touch.pair not in known]
+            known = known | {touch.pair for touch in seen} if at == start else known
+            far = (one for one in seen if one.pair not in known and joint.measure_distance(one.at[None]) > near)
+            if touch := next(far, None):
                 names = [name.rpartition(" (")[0] for name in (touch.mover, touch.other)]
                 alone = [groups[name] for name in names] == [rigid[joint.child], rigid[joint.parent]]
                 early = abs(at - start) < NEARLY * abs(end - start)
