@@ -111,7 +111,10 @@ def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad
         rows = [] if refusal else json.loads(out.read_text("utf-8"))
     asked = f"PyBullet {version('pybullet')}"
     differing: tuple[Finding, ...] = ()
-    if mesh.asset is not None and not refusal and all(row[0] != "unknown" for row in rows):
+    if any(row[0] == "unknown" for row in rows):
+        message = f"{asked} does not say what it makes of Collada files: the shapes are not compared"
+        differing = (Finding("bullet-unread", "warning", (), message, "Write the collision meshes as OBJ or STL."),)
+    elif mesh.asset is not None and not refusal:
         shapes = [_read_bullet_shape(*row) for row in rows]
         differing = _compare(engine, asked, path, mesh.to_asset(), shapes)
     return EngineLoad(engine, path.name, asked, "file", refusal, (), differing)

@@ -1,6 +1,6 @@
 """A program for a process of its own, since PyBullet may crash: loads a file in PyBullet, and writes the shapes that
-collide there as JSON rows: kind (`unknown` where it does not say what it has), size, position and quaternion in the root
-frame, points of a mesh, margin [m]."""
+collide there as JSON rows: kind (`unknown` where it does not say what it has), size, position and quaternion in the
+root frame, points of a mesh, margin [m]."""
 
 import json
 import sys
