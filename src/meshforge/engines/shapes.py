@@ -114,15 +114,18 @@ class ShapeComparison:
     @property
     def findings(self) -> Iterator[Finding]:
         """What the engine does not make as it was read."""
-        rest = {name: one for name, one in self.own.items() if name not in self.matches}
+        solid = {name: one for name, one in self.own.items() if one.volume > _FLAT * one.width**3}
+        rest = {name: one for name, one in solid.items() if name not in self.matches}
         groups, left = list[list[str]](), list[EngineShape]()
-        for shape in (shape for k, shape in enumerate(self.found) if k not in self.matches.values()):
+        known = {there: name for name, there in self.matches.items()}
+        for k in sorted(range(len(self.found)), key=known.__contains__):
+            shape, own = self.found[k], [known[k]] if k in known else []
             within = [name for name, one in rest.items() if (one.reach <= shape.reach + shape.slack).all()]
-            reach = np.max([rest[name].reach for name in within], axis=0) if within else -np.inf
-            if len(within) > 1 and (reach >= shape.reach - shape.slack).all():
-                groups.append(within)
+            reach = np.max([self.own[name].reach for name in (*own, *within)], axis=0) if within else -np.inf
+            if len(own) + len(within) > 1 and (own or (reach >= shape.reach - shape.slack).all()):
+                groups.append([*own, *within])
                 rest = {name: one for name, one in rest.items() if name not in within}
-            else:
+            elif not own:
                 left.append(shape)
         if groups:
             texts = join_names([f"{_name_group(one)} ({pluralize(len(one), 'piece')} here)" for one in groups])
@@ -131,9 +134,7 @@ class ShapeComparison:
             names = tuple(name for one in groups for name in one if name in hulls)
             yield Finding(f"{self.engine}-joins", "error", names, message, self.remedy)
         yield from self._report_margins()
-        yield from self._report_others(
-            {name: one for name, one in rest.items() if one.volume > _FLAT * one.width**3}, left
-        )
+        yield from self._report_others(rest, left)
 
     def _report_margins(self) -> Iterator[Finding]:
         """Hulls that are apart here, and between which nothing passes there, since contacts begin at a distance.
