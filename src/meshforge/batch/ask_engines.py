@@ -108,9 +108,15 @@ def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad
         refusal = (_read_bullet_words(done.stdout) or "it crashed") if done.returncode else None
         if refusal and path.suffix == ".sdf":  # whose parser there takes little of SDF
             return EngineLoad(engine, path.name, untried=f"PyBullet's reader of SDF does not take it: {refusal}")
-        shapes = [] if refusal else [_read_bullet_shape(*row) for row in json.loads(out.read_text("utf-8"))]
+        rows = [] if refusal else json.loads(out.read_text("utf-8"))
     asked = f"PyBullet {version('pybullet')}"
-    differing = () if refusal or mesh.asset is None else _compare(engine, asked, path, mesh.to_asset(), shapes)
+    differing: tuple[Finding, ...] = ()
+    if any(row[0] == "unknown" for row in rows):
+        message = f"{asked} does not say what it makes of Collada files: the shapes are not compared"
+        differing = (Finding("bullet-unread", "warning", (), message, "Write the collision meshes as OBJ or STL."),)
+    elif mesh.asset is not None and not refusal:
+        shapes = [_read_bullet_shape(*row) for row in rows]
+        differing = _compare(engine, asked, path, mesh.to_asset(), shapes)
     return EngineLoad(engine, path.name, asked, "file", refusal, (), differing)
 
 

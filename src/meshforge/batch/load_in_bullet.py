@@ -1,5 +1,6 @@
 """A program for a process of its own, since PyBullet may crash: loads a file in PyBullet, and writes the shapes that
-collide there as JSON rows: kind, size, position and quaternion in the root frame, points of a mesh, margin [m]."""
+collide there as JSON rows: kind (`unknown` where it does not say what it has), size, position and quaternion in the
+root frame, points of a mesh, margin [m]."""
 
 import json
 import sys
@@ -31,7 +32,7 @@ def _read_link(body: int, link: int, alone: str) -> Iterator[list[Any]]:
     """The rows of a link; alone: the mesh file that all of it is of, which has a row there for each hull."""
     place = bullet.getLinkState(body, link)[:2] if link >= 0 else bullet.getBasePositionAndOrientation(body)
     margin = bullet.getDynamicsInfo(body, link)[11]
-    for row in bullet.getCollisionShapeData(body, link)[: 1 if alone else None]:
+    for index, row in enumerate(bullet.getCollisionShapeData(body, link)[: 1 if alone else None]):
         kind, size, file = row[2:5]
         pose = bullet.multiplyTransforms(*place, *row[5:7])
         if kind != bullet.GEOM_MESH:
@@ -40,10 +41,13 @@ def _read_link(body: int, link: int, alone: str) -> Iterator[list[Any]]:
             continue
         # in a link a mesh keeps its vertices to itself: the same file alone, of the same scale, has the same hulls,
         # of an OBJ one for each of its objects
+        if not alone and file == b"unknown_file":  # a round shape of which it made a polytope
+            yield ["mesh", size, *place, bullet.getMeshData(body, link, collisionShapeIndex=index)[1], margin]
+            continue
         try:
             shape = bullet.createCollisionShape(bullet.GEOM_MESH, fileName=alone or file.decode(), meshScale=size)
-        except bullet.error:  # a Collada file, which has one hull; its vertices have the pose within the link in them
-            yield ["mesh", size, *place, bullet.getMeshData(body, link)[1], margin]
+        except bullet.error:  # a Collada file
+            yield ["unknown", size, *pose, [], margin]
             continue
         other = bullet.createMultiBody(baseCollisionShapeIndex=shape)
         for k in range(len(bullet.getCollisionShapeData(other, -1))):

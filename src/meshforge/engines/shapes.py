@@ -1,10 +1,11 @@
 """The shapes that an engine made of a file, as it says itself, compared with the hulls that were read of that file:
 which it joined to one, which are not as they were read, and which gaps its margins close."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
+from typing import Self
 
 import numpy as np
 
@@ -42,7 +43,7 @@ class EngineShape:
     margin: float = 0.0
 
     @classmethod
-    def of(cls, what: Shape | Floats, margin: float = 0.0) -> "EngineShape":
+    def of(cls, what: Shape | Floats, margin: float = 0.0) -> Self:
         """Return that of a shape, or of the convex hull of points (n, 3); all in the root frame."""
         if not isinstance(what, Shape) or isinstance(what, Polytope):
             points = what.vertices if isinstance(what, Polytope) else what
@@ -53,6 +54,19 @@ class EngineShape:
     @property
     def width(self) -> float:
         return float((self.reach + self.reach[::-1]).max())
+
+    @property
+    def slack(self) -> float:
+        """How much farther another shape may reach that is the same but for rounding [m]."""
+        return _OF_PLACE * float(np.abs(self.reach).max()) + _OF_WIDTH * self.width
+
+    def measure_differences(self, reaches: Floats, volumes: Floats, is_round: bool) -> Floats:
+        """Return how far other shapes (n, 26), (n,) differ, as multiples of what rounding may do."""
+        more, sides = reaches - self.reach, self.reach[_AXES[:3]] + self.reach[_AXES[3:]]
+        less = self.slack + _OF_ROUND * self.width * is_round
+        grown = 2 * self.slack * float(sides @ np.roll(sides, 1)) + _OF_VOLUME * np.maximum(self.volume, volumes)
+        far = np.maximum(more.max(axis=1) / self.slack, -more.min(axis=1) / less)
+        return np.asarray(np.maximum(far, np.abs(volumes - self.volume) / grown))
 
 
 def _measure_volume(points: Floats) -> float:
@@ -78,62 +92,49 @@ class ShapeComparison:
     remedy: str
 
     @cached_property
-    def names(self) -> list[str]:
-        """Those of our shapes, the hulls first; each non-convex piece is one for engines, too: its hull."""
-        pieces = [piece.name for piece in self.asset.non_convex if piece.surface is not None]
-        return [*(geom.name for geom in self.asset.geoms), *pieces]
+    def own(self) -> dict[str, EngineShape]:
+        """Our shapes by name, the hulls first; each non-convex piece is one for engines, too: its hull."""
+        pieces = [(piece.name, piece.surface) for piece in self.asset.non_convex if piece.surface is not None]
+        hulls = {geom.name: EngineShape.of(geom.shape) for geom in self.asset.geoms}
+        return hulls | {name: EngineShape.of(one.vertices[np.unique(one.faces)]) for name, one in pieces}
 
     @cached_property
-    def own(self) -> list[EngineShape]:
-        surfaces = [piece.surface for piece in self.asset.non_convex if piece.surface is not None]
-        hulls = [EngineShape.of(geom.shape) for geom in self.asset.geoms]
-        return [*hulls, *(EngineShape.of(surface.vertices[np.unique(surface.faces)]) for surface in surfaces)]
-
-    @cached_property
-    def matches(self) -> dict[int, int]:
+    def matches(self) -> dict[str, int]:
         """Of our shapes those that the engine has, each with its number there."""
         from scipy.optimize import linear_sum_assignment  # lazy: as above
 
         if not self.own or not self.found:
             return {}
-        off = np.array([[self._measure_difference(k, there) for there in self.found] for k in range(len(self.own))])
-        rows, columns = linear_sum_assignment(np.where(off <= 1, 1e-6 * off, 1.0))
-        return {int(k): int(there) for k, there in zip(rows, columns, strict=True) if off[k, there] <= 1}
-
-    def _slack(self, shape: EngineShape) -> float:
-        return _OF_PLACE * float(np.abs(shape.reach).max()) + _OF_WIDTH * shape.width
-
-    def _measure_difference(self, k: int, there: EngineShape) -> float:
-        """How far two shapes differ, as a multiple of what rounding may do."""
-        mine = self.own[k]
-        more, slack = there.reach - mine.reach, self._slack(mine)
-        is_round = k < len(self.asset.geoms) and self.asset.geoms[k].shape.kind not in ("box", "polytope")
-        less = slack + _OF_ROUND * mine.width * is_round
-        sides = mine.reach[_AXES[:3]] + mine.reach[_AXES[3:]]
-        grown = 2 * slack * float(sides @ np.roll(sides, 1)) + _OF_VOLUME * max(mine.volume, there.volume)
-        return max(float(more.max()) / slack, -float(more.min()) / less, abs(there.volume - mine.volume) / grown)
+        curved = {geom.name for geom in self.asset.geoms if geom.shape.kind not in ("box", "polytope")}
+        reaches, volumes = np.array([one.reach for one in self.found]), np.array([one.volume for one in self.found])
+        off = np.array([one.measure_differences(reaches, volumes, name in curved) for name, one in self.own.items()])
+        names, pairs = [*self.own], zip(*linear_sum_assignment(np.where(off <= 1, 1e-6 * off, 1.0)), strict=True)
+        return {names[k]: int(there) for k, there in pairs if off[k, there] <= 1}
 
     @property
     def findings(self) -> Iterator[Finding]:
         """What the engine does not make as it was read."""
-        rest = [k for k in range(len(self.own)) if k not in self.matches]
-        others = [shape for k, shape in enumerate(self.found) if k not in self.matches.values()]
-        joined, left = [list[int]() for _ in others], list[EngineShape]()
-        for into, shape in zip(joined, others, strict=True):
-            within = [k for k in rest if (self.own[k].reach <= shape.reach + self._slack(shape)).all()]
-            reach = np.max([self.own[k].reach for k in within], axis=0) if within else 0.0
-            if len(within) > 1 and (reach >= shape.reach - self._slack(shape)).all():
-                into += within
-                rest = [k for k in rest if k not in within]
-            else:
+        solid = {name: one for name, one in self.own.items() if one.volume > _FLAT * one.width**3}
+        rest = {name: one for name, one in solid.items() if name not in self.matches}
+        groups, left = list[list[str]](), list[EngineShape]()
+        known = {there: name for name, there in self.matches.items()}
+        for k in sorted(range(len(self.found)), key=known.__contains__):
+            shape, own = self.found[k], [known[k]] if k in known else []
+            within = [name for name, one in rest.items() if (one.reach <= shape.reach + shape.slack).all()]
+            reach = np.max([self.own[name].reach for name in (*own, *within)], axis=0) if within else -np.inf
+            if len(own) + len(within) > 1 and (own or (reach >= shape.reach - shape.slack).all()):
+                groups.append([*own, *within])
+                rest = {name: one for name, one in rest.items() if name not in within}
+            elif not own:
                 left.append(shape)
-        if groups := [[self.names[k] for k in one] for one in joined if one]:
+        if groups:
             texts = join_names([f"{_name_group(one)} ({pluralize(len(one), 'piece')} here)" for one in groups])
             message = f"{self.asked} makes one hull of all of a collision mesh, which closes what is between: {texts}"
-            names = tuple(self.names[k] for one in joined for k in one if k < len(self.asset.geoms))
+            hulls = {geom.name for geom in self.asset.geoms}
+            names = tuple(name for one in groups for name in one if name in hulls)
             yield Finding(f"{self.engine}-joins", "error", names, message, self.remedy)
         yield from self._report_margins()
-        yield from self._report_others([k for k in rest if self.own[k].volume > _FLAT * self.own[k].width ** 3], left)
+        yield from self._report_others(rest, left)
 
     def _report_margins(self) -> Iterator[Finding]:
         """Hulls that are apart here, and between which nothing passes there, since contacts begin at a distance.
@@ -141,9 +142,9 @@ class ShapeComparison:
         The file sets that for MuJoCo. Bullet has one of its own: between pieces of a body it closes what is no gap to
         anybody, between bodies what matters if they collide with each other.
         """
-        own = self.engine == "bullet"
-        geoms = self.asset.geoms
-        margins = {k: self.found[there].margin for k, there in self.matches.items() if k < len(geoms)}
+        own, geoms = self.engine == "bullet", self.asset.geoms
+        matches = {k: self.matches[geom.name] for k, geom in enumerate(geoms) if geom.name in self.matches}
+        margins = {k: self.found[there].margin for k, there in matches.items()}
         if not any(margins.values()):
             return
         size = Aabb.union(geom.shape.aabb for geom in geoms).diagonal
@@ -160,16 +161,16 @@ class ShapeComparison:
             names = tuple(dict.fromkeys(geoms[k].name for pair in closed for k in pair))
             yield Finding(f"{self.engine}-margin", "warning" if own else "error", names, message, _NARROW)
 
-    def _report_others(self, rest: Sequence[int], left: Sequence[EngineShape]) -> Iterator[Finding]:
+    def _report_others(self, rest: Mapping[str, EngineShape], left: Sequence[EngineShape]) -> Iterator[Finding]:
         """What differs for no known reason: hulls that are other ones there, or none, and shapes that are no hulls."""
         texts, remedy = list[str](), "Look at scale, pose and file of each in the file; `meshforge render` draws it."
-        for k in rest:
-            off = [float(np.abs(shape.reach - self.own[k].reach).max()) for shape in left]
+        for name, one in rest.items():
+            off = [float(np.abs(shape.reach - one.reach).max()) for shape in left]
             near = f"the nearest shape there differs by {min(off):.3g} m" if off else "it has none for it"
-            texts.append(f"{self.names[k]} ({near})")
+            texts.append(f"{name} ({near})")
         if texts:
             message = f"{self.asked} does not make the same shape as is read here: {join_names(texts, 5)}"
-            yield Finding(f"{self.engine}-differs", "error", tuple(self.names[k] for k in rest), message, remedy)
+            yield Finding(f"{self.engine}-differs", "error", tuple(rest), message, remedy)
         elif left:
             message = f"{self.asked} makes {pluralize(len(left), 'shape')} more than are read here"
             yield Finding(f"{self.engine}-differs", "error", (), message, remedy)

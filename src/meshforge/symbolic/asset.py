@@ -139,6 +139,11 @@ class Joint:
         object.__setattr__(self, "anchor", freeze_floats(self.anchor, (3,)))
         object.__setattr__(self, "axis", freeze_floats(self.axis, (3,)))
 
+    def measure_distance(self, points: Floats) -> float:
+        """Return how far the farthest of points (n, 3) is from the axis, of a ball from its centre [m]."""
+        off = points - self.anchor
+        return float(np.linalg.norm(off if self.kind == "ball" else np.cross(off, self.axis), axis=1).max())
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Inertial:

@@ -98,6 +98,14 @@ def test_the_meshes_of_an_sdf_come_apart_too_and_other_formats_refuse_to(run: Ru
     assert run("convert", "row.sdf", "many", "--to", "urdf", "--one-file-a-hull").code == 0
 
 
+def test_pybullet_makes_one_hull_of_an_stl(run: Run, tmp_path: Path) -> None:
+    pytest.importorskip("pybullet")
+    write_boxes(tmp_path / "row.obj")
+    assert run("convert", "row.obj", "row.stl").code == 0
+    told = run("check", "row.stl", "--engine", "bullet")
+    assert told.code == 1 and "(3 pieces here)" in told.out and "meshforge convert FILE OUT.urdf" in told.out
+
+
 @pytest.mark.parametrize("objects", [1, 3])
 def test_pybullet_makes_a_hull_of_each_object_of_an_obj(objects: int, run: Run, tmp_path: Path) -> None:
     pytest.importorskip("pybullet")

@@ -12,7 +12,6 @@ from meshforge.checks.physics.scene import mm
 from meshforge.checks.physics.sweep import NEAR_AXIS
 from meshforge.common import join_names
 from meshforge.engines import Finding, Severity
-from meshforge.geometry import Floats
 from meshforge.symbolic import Hull, Joint, SymbolicMesh, contact_graph
 
 WITHOUT_BODIES = ("obj", "stl", "ply", "wrl", "folder")
@@ -73,7 +72,7 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
         if pair not in between:
             between[pair] = _find_joints_between(mesh, tree, rigid, *pair)
         joints, at = between[pair], back.apply(np.array(contact.pos)[None])
-        if not any(_measure_distance(joint, at) <= near for joint, near in joints):
+        if not any(joint.measure_distance(at) <= near for joint, near in joints):
             found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), bool(joints), excluded)
     least = DEEP * mesh.diagonal
     measured = (
@@ -93,18 +92,12 @@ def _find_joints_between(
             below = set(tree.list_below(child))
             hulls = [hull for hull in mesh.hulls if hull.body in below]
             return [
-                (joint, NEAR_AXIS * max(_measure_distance(joint, hull.vertices) for hull in hulls))
+                (joint, NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in hulls))
                 if joint.kind in ("revolute", "ball")
                 else (joint, -1.0)
                 for joint in tree.joints[child]
             ]
     return []
-
-
-def _measure_distance(joint: Joint, points: Floats) -> float:
-    """From the axis of a hinge, or the centre of a ball, to the farthest of points (n, 3) [m]."""
-    off = points - joint.anchor
-    return float(np.linalg.norm(np.cross(off, joint.axis) if joint.kind == "revolute" else off, axis=1).max())
 
 
 def _measure_share(mesh: SymbolicMesh, overlap: BodyOverlap) -> float:
@@ -139,56 +132,43 @@ def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[F
             yield Finding("physics-overlap", severity, names, message, remedy)
 
 
-@dataclass(frozen=True, slots=True)
-class LoosePiece:
-    """Hulls that touch each other, and nothing else of their rigid body; gap: around them, as a share of the diagonal,
-    `FLOATING` at most."""
+def check_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> Iterator[Finding]:
+    """Yield an error on pieces of bodies that float, a warning on those that are nearer to what they touch nothing of.
 
-    body: str
-    hulls: tuple[str, ...]
-    gap: float
-
-
-def find_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> tuple[LoosePiece, ...]:
-    """Return the pieces of bodies that touch nothing of them.
-
-    Not those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them,
+    Not on those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them,
     nor of formats in which all is one body because nothing else is said.
     """
     if mesh.asset is not None and (mesh.asset.non_convex or mesh.asset.format in ("gltf", *WITHOUT_BODIES)):
-        return ()
-    rigid, groups = tree.rigid_roots(), dict[str, list[int]]()
-    for k, hull in enumerate(mesh.hulls):
-        groups.setdefault(rigid[hull.body], []).append(k)
+        return
+    rigid, left = tree.rigid_roots(), set[str]()
     graph = contact_graph([hull.shape for hull in mesh.hulls], FLOATING * mesh.diagonal)
-    found = list[LoosePiece]()
-    for body, members in groups.items():
-        pairs = {pair: gap for pair, gap in graph.items() if {*pair} <= {*members}}
-        parts = _split(members, [pair for pair, gap in pairs.items() if gap <= LOOSE * mesh.diagonal])
-        for part in sorted(parts, key=lambda part: -sum(mesh.hulls[k].volume for k in part))[1:]:
-            out = [gap for pair, gap in pairs.items() if len({*pair} & {*part}) == 1]
-            gap = min(out, default=FLOATING * mesh.diagonal) / mesh.diagonal
-            if body != "world":
-                found.append(LoosePiece(body, tuple(mesh.hulls[k].name for k in part), gap))
-    return tuple(found)
-
-
-def _split(members: Sequence[int], pairs: Sequence[tuple[int, int]]) -> list[list[int]]:
-    """The members in groups, those of a pair in one."""
-    group = {k: [k] for k in members}
-    for first, second in pairs:
-        if group[first] is not group[second]:
-            group[first] += group[second]
-            group |= dict.fromkeys(group[second], group[first])
-    return list({id(one): one for one in group.values()}.values())
-
-
-def report_loose_pieces(loose: Sequence[LoosePiece]) -> Iterator[Finding]:
-    """Yield errors on pieces that float, warnings on those that are nearer."""
-    kinds: tuple[tuple[Severity, bool], ...] = (("error", True), ("warning", False))
-    for severity, floats in kinds:
-        if some := [piece for piece in loose if (piece.gap >= FLOATING) is floats]:
-            texts = [f"{join_names(piece.hulls, 3)} of {piece.body}" for piece in some]
-            names = tuple(name for piece in some for name in piece.hulls)
+    kinds: tuple[tuple[Severity, float], ...] = (("error", FLOATING), ("warning", LOOSE))
+    for severity, reach in kinds:
+        pairs = [pair for pair, gap in graph.items() if gap <= reach * mesh.diagonal]
+        alone = [(body, part) for body, part in _list_small_parts(mesh, rigid, pairs) if body != "world"]
+        texts = [f"{join_names(part, 3)} of {body}" for body, part in alone if not left & {*part}]
+        names = tuple(name for _, part in alone for name in part if not left & {*part})
+        if texts:
             message = f"pieces that touch nothing of their body: {join_names(texts, 3)}"
             yield Finding("physics-loose", severity, names, message, "Move them, join them by a hull, or delete them.")
+        left |= {*names}
+
+
+def _list_small_parts(
+    mesh: SymbolicMesh, rigid: Mapping[str, str], pairs: Sequence[tuple[int, int]]
+) -> Iterator[tuple[str, list[str]]]:
+    """Rigid groups of bodies, and the names of hulls that hang together by pairs, without the largest part of each."""
+    part = {k: [k] for k in range(len(mesh.hulls))}
+    for first, second in pairs:
+        if rigid[mesh.hulls[first].body] == rigid[mesh.hulls[second].body] and part[first] is not part[second]:
+            part[first] += part[second]
+            part |= dict.fromkeys(part[second], part[first])
+    found = sorted(
+        {id(one): one for one in part.values()}.values(), key=lambda one: -sum(mesh.hulls[k].volume for k in one)
+    )
+    seen = set[str]()
+    for one in found:
+        body = rigid[mesh.hulls[one[0]].body]
+        if body in seen:
+            yield body, [mesh.hulls[k].name for k in one]
+        seen.add(body)

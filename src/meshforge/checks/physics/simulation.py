@@ -16,17 +16,15 @@ from meshforge.checks.physics.overlaps import (
     DEEP,
     WITHOUT_BODIES,
     BodyOverlap,
-    LoosePiece,
+    check_loose_pieces,
     find_body_overlaps,
-    find_loose_pieces,
-    report_loose_pieces,
     report_overlaps,
 )
-from meshforge.checks.physics.sweep import JointBlock, check_joint_limits, find_blocks, report_blocks
+from meshforge.checks.physics.sweep import check_joints
 from meshforge.common import GeometryError, join_names, pluralize, require_mujoco
 from meshforge.engines import Finding, Severity
 from meshforge.geometry import Floats, convex_hull
-from meshforge.symbolic import Hull, Joint, SymbolicMesh
+from meshforge.symbolic import Hull, SymbolicMesh
 
 BEFORE = "physics_before"
 """The key of the physics of the hulls before an edit."""
@@ -69,19 +67,14 @@ class Rest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Physics(Measure):
-    """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`.
-
-    joints: whose limits are looked at; blocks: what stands in their way; loose: pieces that touch nothing.
-    """
+    """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`."""
 
     scale: float
     rest: Rest | None
     overlaps: tuple[BodyOverlap, ...]
     refused: str | None
     mass_problems: tuple[Finding, ...]
-    joints: tuple[Joint, ...] = ()
-    blocks: tuple[JointBlock, ...] = ()
-    loose: tuple[LoosePiece, ...] = ()
+    problems: tuple[Finding, ...] = ()
 
     @property
     def description(self) -> str:
@@ -97,7 +90,7 @@ class Physics(Measure):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is odd, the masses first."""
-        return (*self.mass_problems, *_report_start(self), *_report_unrest(self))
+        return (*self.mass_problems, *_report_start(self), *self.problems, *_report_unrest(self))
 
     def to_json(self) -> dict[str, Any]:
         """Return the behaviour as JSON-able data; lengths in metres, speeds in metres a second, angles in degrees."""
@@ -105,8 +98,6 @@ class Physics(Measure):
             "rest": asdict(self.rest) if self.rest else None,
             "refused": self.refused,
             "overlaps": [asdict(overlap) for overlap in self.overlaps],
-            "blocks": [asdict(block) for block in self.blocks],
-            "loose": [asdict(piece) for piece in self.loose],
         }
 
 
@@ -136,18 +127,18 @@ def simulate(mesh: SymbolicMesh) -> Physics:
         return Physics(0.0, None, (), "there is no hull", mass_problems)
     if len(sound.hulls) > HULLS:
         return Physics(sound.diagonal, None, (), f"more than {HULLS:,} hulls", mass_problems)
-    tree, joints = JointTree.of(sound), sound.asset.mechanism.joints if sound.asset else ()
+    tree = JointTree.of(sound)
     if len(tree.bodies) > BODIES:
         return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", mass_problems)
     try:
         overlaps = find_body_overlaps(sound, tree)
         rest = _simulate_rest(sound, tree)
-        blocks = find_blocks(sound, tree, DEEP * sound.diagonal)
+        problems = (*check_joints(sound, tree, DEEP * sound.diagonal), *check_loose_pieces(sound, tree))
     except ValueError as error:  # MuJoCo's compiler
         reason = str(error).splitlines()[0].removeprefix("Error: ")
         return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {reason}", mass_problems)
-    refused, loose = None if rest else "the simulation blew up", find_loose_pieces(sound, tree)
-    return Physics(sound.diagonal, rest, overlaps, refused, mass_problems, joints, blocks, loose)
+    refused = None if rest else "the simulation blew up"
+    return Physics(sound.diagonal, rest, overlaps, refused, mass_problems, problems)
 
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
@@ -215,10 +206,7 @@ def _report_start(found: Physics) -> Iterator[Finding]:
     if found.rest and not LEAST_SIZE <= found.scale <= MOST_SIZE:
         message = f"it is {found.scale:.3g} m large, so its file is probably in another unit"
         yield Finding("physics-size", "warning", (), message, "Write the file in metres, or scale it where it is used.")
-    yield from check_joint_limits(found.joints)
     yield from report_overlaps(found.overlaps, found.scale)
-    yield from report_blocks(found.blocks)
-    yield from report_loose_pieces(found.loose)
 
 
 def _report_unrest(found: Physics) -> Iterator[Finding]:
