@@ -12,6 +12,7 @@ export type AnyEdit =
   | ReplyToQuestion
   | AnswerForRule
   | TakeBack
+  | SetGoal
   | WriteProgram
   | CutHull
   | Unprepare
@@ -34,7 +35,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest =
-  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob | GoalJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -75,6 +76,8 @@ export interface Everything {
   Event: Event;
   ExcludeAssets: ExcludeAssets;
   ExportJob: ExportJob;
+  ExtractorSuggestion: ExtractorSuggestion;
+  ExtractorsRequest: ExtractorsRequest;
   FamilyOffer: FamilyOffer;
   Fault: Fault;
   Figure: Figure;
@@ -82,6 +85,12 @@ export interface Everything {
   FolderEntry: FolderEntry;
   FolderView: FolderView;
   ForecastJob: ForecastJob;
+  GoalCall: GoalCall;
+  GoalCheck: GoalCheck;
+  GoalForm: GoalForm;
+  GoalJob: GoalJob;
+  GoalResultView: GoalResultView;
+  GoalView: GoalView;
   Guess: Guess;
   Hello: Hello;
   Hint: Hint;
@@ -142,6 +151,7 @@ export interface Everything {
   RuleView: RuleView;
   SelectRequest: SelectRequest;
   SelectionView: SelectionView;
+  SetGoal: SetGoal;
   SetLandmarks: SetLandmarks;
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
@@ -362,7 +372,7 @@ export interface ReplyToQuestion {
 }
 /**
  * A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
- * those in question.
+ * those in question; goals: texts of those that fail on a result.
  */
 export interface ReviewQuestionView {
   id: string;
@@ -374,6 +384,7 @@ export interface ReviewQuestionView {
   rule: number | null;
   hulls: HullRef[];
   choices: ReviewChoiceView[];
+  goals: string[];
 }
 /**
  * A hull of an asset. place: its position among the asset's own hulls.
@@ -409,6 +420,15 @@ export interface HullLabel {
 export interface TakeBack {
   kind: "take-back";
   id: string;
+}
+/**
+ * Keep a goal under a name; null takes it away. was: the name that it had before, null for a new one.
+ */
+export interface SetGoal {
+  kind: "goal";
+  name: string;
+  text: string | null;
+  was?: string | null;
 }
 /**
  * Make a text the project's program. version: of the program that was changed.
@@ -447,7 +467,7 @@ export interface Unprepare {
  * Accept the results of some assets, or call them wrong; null takes that back.
  *
  * selections, labels: where the result of one asset is wrong, the hulls that rules should have selected, and labels
- * that hulls should have.
+ * that hulls should have; goals: texts of those that fail on an accepted result, and do not count there.
  */
 export interface ReviewAssets {
   kind: "review";
@@ -460,6 +480,7 @@ export interface ReviewAssets {
   labels?: {
     [k: string]: string;
   };
+  goals?: string[];
 }
 /**
  * Give some assets up, with the reason; null includes them again.
@@ -697,7 +718,7 @@ export interface CandidateView {
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
- * where it was not checked.
+ * where it was not checked; goals: what is known of those of the project on the result.
  */
 export interface Card {
   asset: string;
@@ -721,6 +742,7 @@ export interface Card {
   edited_picture: string | null;
   check: string | null;
   faults: Fault[] | null;
+  goals: GoalResultView[];
 }
 /**
  * A rule of a check that does not hold. engine: whose limit it is, or null; new: whether the edit caused it.
@@ -730,6 +752,19 @@ export interface Fault {
   severity: "error" | "warning";
   engine: string | null;
   new: boolean;
+}
+/**
+ * What is known of a goal on the result of an asset, as in `GoalStatus`; picture: the key of that of a failure.
+ */
+export interface GoalResultView {
+  name: string;
+  goal: string;
+  outcome: ("passed" | "failed" | "untried" | "broken") | null;
+  why: string;
+  hulls: string[];
+  before: ("passed" | "failed" | "untried" | "broken") | null;
+  accepted: boolean;
+  picture: string | null;
 }
 /**
  * New and changed cards; gone: ids of assets that no longer exist.
@@ -946,6 +981,7 @@ export interface ProjectView {
   rules: RuleLine[];
   answers: AnswerView[];
   templates: string[];
+  goals: GoalView[];
   propagation: PropagationState | null;
   next: NextStep;
   new: NewAssetsView | null;
@@ -980,6 +1016,25 @@ export interface RuleLine {
   action: ActionView;
   shown: string[];
   nothing: string[];
+}
+/**
+ * A goal of the project. sentence: it in words; call: as a form has it, null where it is none; error: why.
+ */
+export interface GoalView {
+  name: string;
+  text: string;
+  sentence: string;
+  call: GoalCall | null;
+  error: string | null;
+}
+/**
+ * A goal as a form has it. name: the word that begins it; arguments: texts, those that are left out missing.
+ */
+export interface GoalCall {
+  name: string;
+  arguments: {
+    [k: string]: string;
+  };
 }
 /**
  * The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
@@ -1062,12 +1117,13 @@ export interface RuleView {
   sentence: string;
 }
 /**
- * The language: actions (without Each, a switch in the page), operators, directions.
+ * The language: actions (without Each, a switch in the page), operators, directions; goals.
  */
 export interface LanguageView {
   actions: ActionForm[];
   operators: Operator[];
   directions: string[];
+  goals: GoalForm[];
 }
 /**
  * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
@@ -1077,6 +1133,16 @@ export interface Operator {
   usage: string;
   summary: string;
   base: boolean;
+  arguments: Argument[];
+}
+/**
+ * A goal as a form. summary: what it tries; usage: its syntax. Arguments are `words`, an `extractor` or a `text`;
+ * omitted: their default, or what happens without.
+ */
+export interface GoalForm {
+  name: string;
+  summary: string;
+  usage: string;
   arguments: Argument[];
 }
 /**
@@ -1141,7 +1207,18 @@ export interface Reach {
 export interface Job {
   id: string;
   kind:
-    "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "download";
+    | "read"
+    | "apply"
+    | "decompose"
+    | "rebuild"
+    | "export"
+    | "add"
+    | "label"
+    | "forecast"
+    | "ask"
+    | "check"
+    | "download"
+    | "goal";
   title: string;
   done: number;
   total: number;
@@ -1152,13 +1229,15 @@ export interface Job {
   out: string | null;
 }
 /**
- * What became of one asset in a job. before: what was done to a new asset before the program, in sentences.
+ * What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
+ * picture: the key of that of a goal that fails.
  */
 export interface JobLine {
   asset: string;
   status: "done" | "edited" | "unchanged" | "failed" | "skipped";
   text: string;
   before: string[];
+  picture: string | null;
 }
 /**
  * The project as it is now.
@@ -1221,6 +1300,21 @@ export interface ExportJob {
   folder?: string;
 }
 /**
+ * An extractor that selects what a person selected on an asset, or more. places: positions of what it selects.
+ */
+export interface ExtractorSuggestion {
+  text: string;
+  sentence: string;
+  places: number[];
+}
+/**
+ * Which extractors select some hulls of an asset, by name?
+ */
+export interface ExtractorsRequest {
+  asset: string;
+  select: string[];
+}
+/**
  * A folder in another. project: whether it is a project.
  */
 export interface FolderEntry {
@@ -1246,6 +1340,23 @@ export interface FolderView {
 export interface ForecastJob {
   kind: "forecast";
   every_hull: boolean;
+}
+/**
+ * What a form comes to. text: the goal; error: why it is none, where in the text, and what helps; sentence: it in
+ * words; name: a proposal of what to call it.
+ */
+export interface GoalCheck {
+  text: string;
+  error: string | null;
+  sentence: string;
+  name: string;
+}
+/**
+ * Try a goal that is not kept on all assets.
+ */
+export interface GoalJob {
+  kind: "goal";
+  text: string;
 }
 /**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.

@@ -15,7 +15,7 @@ _KEPT = 0.9
 
 @dataclass(frozen=True, slots=True)
 class Clear(Goal):
-    """A selection keeps its distance from another one, or from all that it did not touch before."""
+    """Nothing comes nearer to a selection: another one, or all that it did not touch before."""
 
     part: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What keeps its distance"})
     other: Extractor | None = field(

@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from meshforge.studio.jobs.downloads import start_download
-from meshforge.studio.jobs.outputs import start_apply, start_check, start_export
+from meshforge.studio.jobs.outputs import start_apply, start_check, start_export, start_goal
 from meshforge.studio.jobs.preparation import start_ask, start_decompose, start_forecast, start_label, start_rebuild
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire import jobs as wire
@@ -30,5 +30,7 @@ def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
             return start_check(session)
         case wire.DownloadJob():
             return start_download(session, request)
+        case wire.GoalJob():
+            return start_goal(session, request)
         case _:
             assert_never(request)

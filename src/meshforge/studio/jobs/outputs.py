@@ -6,9 +6,12 @@ import shutil
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal, get_args
 from uuid import uuid4
 
 from meshforge import batch
+from meshforge.checks.goals.base import GoalOutcome
+from meshforge.checks.goals.registry import parse_goal
 from meshforge.common import (
     ProjectError,
     UsageError,
@@ -24,8 +27,8 @@ from meshforge.project import NewAssetOptions, NewAssetResult, describe_new, lis
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
+from meshforge.studio.wire.family import Card, picture_key
+from meshforge.studio.wire.jobs import ApplyJob, ExportJob, GoalJob, Job, JobLine
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
@@ -108,6 +111,38 @@ def prepare_new(
     return results, unclear
 
 
+def start_goal(session: Session, request: GoalJob) -> Job:
+    """Start to try a goal on all assets, before and after the program. Raises ProgramError where it does not parse."""
+    project = session.project
+    goal = parse_goal(request.text, "goal", project.words)
+    total = len(project.assets())
+
+    def work(progress: JobProgress) -> str:
+        run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=progress.advance)
+        found = list[Mapping[str, str]]()
+        for one in project.try_goals({"": goal}, execution=run):
+            progress.add_line(_goal_line(one))
+            found.append({when: way[""].outcome for when, way in (("now", one.after), ("was", one.before)) if way})
+        counts = {word: sum(one.get("now") == word for one in found) for word in get_args(GoalOutcome)}
+        tried = pluralize(total - counts["untried"], "asset")
+        before = sum(one.get("was") == "passed" for one in found)
+        was = f", {before} before the edit" if any("was" in one for one in found) else ""
+        away = f"; it does not apply to {counts['untried']}" if counts["untried"] else ""
+        return f"{goal.word()} holds on {counts['passed']} of {tried}{was}{away}."
+
+    return session.jobs.start("goal", f"Trying {goal}", total, work)
+
+
+def _goal_line(one: batch.AssetGoals) -> JobLine:
+    if one.error:
+        return JobLine(asset=one.asset, status="failed", text=one.error)
+    result, picture = one.after[""], one.pictures.get("")
+    status: Literal["done", "skipped", "failed"] = (
+        "done" if result.outcome == "passed" else "skipped" if result.outcome == "untried" else "failed"
+    )
+    return JobLine(asset=one.asset, status=status, text=result.why, picture=picture_key(picture) if picture else None)
+
+
 def start_check(session: Session) -> Job:
     """Start to check all outputs. Raises ProjectError where there are none."""
     assets = tuple(card.asset for card in session.pages.cards if card.check)
@@ -140,9 +175,11 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
 
 
 def list_signed_off(session: Session) -> list[Card]:
-    """Return the assets whose output is up to date and signed off: sure enough, or accepted by a person."""
+    """Return the assets whose output is up to date and signed off: sure enough, with no goal that fails or was not
+    tried, or accepted by a person."""
     known = session.pages.shown.assessment
     unreviewed = {row.asset for row in known.assets if row.state == "signed"} if known else set()
+    unreviewed -= {card.asset for card in session.pages.cards if any(goal.is_open for goal in card.goals)}
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]
     return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in unreviewed)]
 

@@ -6,19 +6,21 @@ from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 JobKind = Literal[
-    "read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "download"
+    "read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "download", "goal"
 ]
 
 LabelEditKind = Literal["label-all", "label-vlm"]
 
 
 class JobLine(Wire):
-    """What became of one asset in a job. before: what was done to a new asset before the program, in sentences."""
+    """What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
+    picture: the key of that of a goal that fails."""
 
     asset: str
     status: Literal["done", "edited", "unchanged", "failed", "skipped"]
     text: str = ""
     before: tuple[str, ...] = ()
+    picture: str | None = None
 
 
 class Job(Wire):
@@ -103,6 +105,13 @@ class CheckJob(Wire):
     kind: Literal["check"] = "check"
 
 
+class GoalJob(Wire):
+    """Try a goal that is not kept on all assets."""
+
+    kind: Literal["goal"] = "goal"
+    text: str
+
+
 class DownloadJob(Wire):
     """Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip."""
 
@@ -111,7 +120,18 @@ class DownloadJob(Wire):
     signed_only: bool = True
 
 
-JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob
+JobRequest = (
+    ApplyJob
+    | DecomposeJob
+    | RebuildJob
+    | ExportJob
+    | LabelJob
+    | ForecastJob
+    | AskJob
+    | CheckJob
+    | DownloadJob
+    | GoalJob
+)
 
 
 class AssetLabelUpdate(Wire):

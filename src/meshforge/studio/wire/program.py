@@ -77,6 +77,16 @@ class ActionForm(Wire):
     clashes: tuple[tuple[ArgumentValue, ArgumentValue], ...] = ()
 
 
+class GoalForm(Wire):
+    """A goal as a form. summary: what it tries; usage: its syntax. Arguments are `words`, an `extractor` or a `text`;
+    omitted: their default, or what happens without."""
+
+    name: str
+    summary: str
+    usage: str
+    arguments: tuple[Argument, ...]
+
+
 class RuleView(Wire):
     """A rule of a program, as text and as a sentence."""
 
@@ -211,8 +221,9 @@ class Operator(Wire):
 
 
 class LanguageView(Wire):
-    """The language: actions (without Each, a switch in the page), operators, directions."""
+    """The language: actions (without Each, a switch in the page), operators, directions; goals."""
 
     actions: tuple[ActionForm, ...]
     operators: tuple[Operator, ...]
     directions: tuple[str, ...]
+    goals: tuple[GoalForm, ...]
