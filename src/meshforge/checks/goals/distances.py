@@ -15,7 +15,7 @@ _KEPT = 0.9
 
 @dataclass(frozen=True, slots=True)
 class Clear(Goal):
-    """Nothing comes nearer to a selection: another one, or all that it did not touch before."""
+    """The distance of a selection from all that it did not touch before, or from another one, stays."""
 
     part: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What keeps its distance"})
     other: Extractor | None = field(

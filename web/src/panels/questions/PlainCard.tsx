@@ -5,12 +5,14 @@ import { demonstrate } from "../../commands/learn";
 import { canBeRight, groupReply, putOff, reply, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
+import { failingGoals } from "../../store/goals";
 import { isUpToDate } from "../../store/reviews";
 import { useProject } from "../../store/project";
 import { shortName, toSentence } from "../../store/words";
 import { setHighlight } from "../../store/workspace";
 import { Swatch } from "../../ui/Section";
 import type { ReviewChoiceView, ReviewQuestionView } from "../../wire";
+import { GoalFailures } from "../review/GoalFailures";
 import { useCardKeys } from "./cardKeys";
 import { GroupHulls, groupText } from "./GroupHulls";
 import { whilePointed } from "../../ui/whilePointed";
@@ -31,11 +33,18 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
     >
       <h3 id="asked">{question.text}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
+      {canBeRight(question) && <GoalPictures question={question} />}
       {canBeRight(question) && <ResultPictures asset={question.asset} />}
       {question.kind === "result" ? <ResultReplies question={question} /> : <Replies question={question} exceptions={exceptions} />}
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
   );
+}
+
+/** What fails on the result, where a goal does. */
+function GoalPictures({ question: { asset, goals } }: { question: ReviewQuestionView }) {
+  const card = useProject((state) => state.cards[asset]);
+  return <GoalFailures asset={asset} goals={failingGoals(card, goals)} />;
 }
 
 /** An asset before and after, where its result is written; the view shows it at any rate. And what stands out of it. */

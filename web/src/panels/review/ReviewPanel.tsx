@@ -14,6 +14,7 @@ import type { Card, Job } from "../../wire";
 import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
+import { Goals } from "./Goals";
 import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import { Results } from "./Results";
 import css from "./review.module.css";
@@ -21,6 +22,7 @@ import css from "./review.module.css";
 const PARTS = [
   { value: "asset", label: "This asset" },
   { value: "all", label: "All results" },
+  { value: "goals", label: "Goals" },
   { value: "export", label: "Export" },
 ] as const;
 type Part = (typeof PARTS)[number]["value"];
@@ -39,6 +41,7 @@ export function ReviewPanel() {
       <div className={css.part} data-part={part}>
         {part === "asset" && <AssetReview />}
         {part === "all" && <Results onOpen={() => setPart("asset")} />}
+        {part === "goals" && <Goals onOpen={() => setPart("asset")} />}
         {part === "export" && <ExportSection />}
       </div>
     </div>

@@ -1,0 +1,74 @@
+// Goals on one result: the picture of what fails, the sentence, what is at fault, and the answer to it.
+import { Check, CircleAlert, CircleCheck } from "lucide-react";
+import { acceptGoals } from "../../commands/review";
+import { api } from "../../server/api";
+import { selectInOutput } from "../../store/checks";
+import { failsGoal, goalText } from "../../store/goals";
+import { useProject } from "../../store/project";
+import { isUpToDate } from "../../store/reviews";
+import { countText } from "../../store/words";
+import { Button } from "../../ui/Button";
+import { Section } from "../../ui/Section";
+import type { GoalResultView } from "../../wire";
+import { EnlargeablePicture } from "./CheckPictures";
+import css from "./goals.module.css";
+import review from "./review.module.css";
+
+/** What is known of the goals on the result of an asset; nothing where the project has none. */
+export function GoalsOfAsset({ asset }: { asset: string }) {
+  const card = useProject((state) => state.cards[asset]);
+  if (!card?.goals.length || card.output === "none") return null;
+  const fail = card.goals.filter(({ outcome }) => outcome === "failed" || outcome === "broken");
+  const others = card.goals.filter((goal) => !fail.includes(goal));
+  const open = fail.some(failsGoal);
+  return (
+    <Section title="Goals" aside={open ? <span className={review.bad}>✗ {countText(fail.filter(failsGoal).length, "goal")} {"fail"}</span> : null}>
+      <GoalFailures asset={asset} goals={fail} />
+      {open && (
+        <Button
+          icon={Check}
+          disabled={!isUpToDate(card)}
+          tip="The result is right though this fails: for these goals and this output"
+          onClick={() => void acceptGoals(asset)}
+        >
+          Accept it all the same
+        </Button>
+      )}
+      {others.map((goal) => (
+        <p key={goal.name} className={goal.outcome === "passed" ? review.good : review.dim}>
+          {goal.outcome === "passed" && "✓ "}
+          {goal.name} {goalText(goal)}
+        </p>
+      ))}
+    </Section>
+  );
+}
+
+/** Goals that fail on a result, each with its picture first; a click on the sentence shows the hulls at fault. */
+export function GoalFailures({ asset, goals }: { asset: string; goals: readonly GoalResultView[] }) {
+  return goals.map((goal) => {
+    const text = `${goal.name} ${goalText(goal)}`;
+    const Icon = goal.accepted ? CircleCheck : CircleAlert;
+    const words = (
+      <>
+        <Icon size={15} aria-hidden />
+        <span>
+          {text}
+          {goal.before === "failed" && <span className={review.dim}> · as before the edit</span>}
+        </span>
+      </>
+    );
+    return (
+      <div key={goal.name} className={css.failure} data-open={failsGoal(goal)}>
+        {goal.picture !== null && <EnlargeablePicture source={api.goalPicture(asset, goal.picture)} text={text} />}
+        {goal.hulls.length ? (
+          <button type="button" className={review.finding} title={`Select ${countText(goal.hulls.length, "hull")} at fault`} onClick={() => selectInOutput(asset, goal.hulls)}>
+            {words}
+          </button>
+        ) : (
+          <div className={review.finding}>{words}</div>
+        )}
+      </div>
+    );
+  });
+}

@@ -1,0 +1,179 @@
+// The form of a goal: which one, on what, with which options; tried on all assets before it is kept.
+import { Check, Play } from "lucide-react";
+import { useCallback, useEffect, useMemo, useState } from "react";
+import { api } from "../../server/api";
+import { perform } from "../../store/edits";
+import { changeGoal, dropGoal, freeName, type GoalDraft } from "../../store/goals";
+import { tryGoal, useJob } from "../../store/jobs";
+import { useProject } from "../../store/project";
+import { reportError } from "../../store/toasts";
+import { countText } from "../../store/words";
+import { setHighlight, useWorkspace, visit } from "../../store/workspace";
+import { useFetched } from "../../pictures/useFetched";
+import { Button } from "../../ui/Button";
+import { whilePointed } from "../../ui/whilePointed";
+import type { Argument, GoalCall, GoalCheck, Job } from "../../wire";
+import { Field } from "../demonstrate/ArgumentField";
+import { EnlargeablePicture } from "./CheckPictures";
+import css from "./goals.module.css";
+import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import review from "./review.module.css";
+
+export function GoalForm({ draft }: { draft: GoalDraft }) {
+  const { call, name, was } = draft;
+  const forms = useProject((state) => state.language.goals);
+  const goals = useProject((state) => state.project.goals);
+  const form = forms.find((one) => one.name === call.name);
+  const check = useCheck(call);
+  const proposal = freeName(check?.name || call.name, goals, was);
+  const job = useJob("goal");
+  const mine = job && check && job.title === `Trying ${check.text}` ? job : null;
+  const ready = check !== null && check.error === null;
+  useEffect(showSource, []);
+  const keep = async () => {
+    const done = ready && (await perform({ kind: "goal", name: (name ?? proposal).trim(), text: check.text, was }));
+    if (done) dropGoal();
+  };
+  return (
+    <form
+      className={css.form}
+      aria-label={was === null ? "A new goal" : `Change ${was}`}
+      onSubmit={(event) => {
+        event.preventDefault();
+        void keep();
+      }}
+    >
+      <div className={css.kinds} role="group" aria-label="Goal">
+        {forms.map((one) => (
+          <button key={one.name} type="button" aria-pressed={one.name === call.name} title={one.summary} onClick={() => changeGoal({ call: carry(one.arguments, call, one.name) })}>
+            {one.name}
+          </button>
+        ))}
+      </div>
+      {form && (
+        <p className={review.dim}>
+          {form.summary} <code className={review.code}>{form.usage}</code>
+        </p>
+      )}
+      {form?.arguments.map((argument) => (
+        <GoalField key={argument.name} argument={argument} call={call} />
+      ))}
+      {check && <Checked check={check} bare={form?.arguments.some((one) => one.required && !call.arguments[one.name]) ?? false} />}
+      <Field name="Name" inline>
+        <input className={review.field} aria-label="Name of the goal" value={name ?? proposal} spellCheck={false} onChange={(event) => changeGoal({ name: event.target.value })} />
+      </Field>
+      {mine && <Outcome job={mine} />}
+      <div className={review.row}>
+        <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => check && void tryGoal(check.text)}>
+          Try it
+        </Button>
+        <Button type="submit" look="primary" icon={Check} disabled={!ready || !(name ?? proposal).trim()}>
+          Keep
+        </Button>
+        <Button look="quiet" onClick={dropGoal}>
+          Cancel
+        </Button>
+      </div>
+    </form>
+  );
+}
+
+/** Goals select hulls of the asset as it comes. */
+function showSource(): void {
+  const { asset, showing, selection } = useWorkspace.getState();
+  if (asset !== null && showing.kind !== "source") visit(asset, { kind: "source" }, showing.kind === "steps" ? selection : []);
+}
+
+/** Another goal with what it is about, as that is the first argument of most. */
+function carry([first, ...rest]: readonly Argument[], call: GoalCall, name: string): GoalCall {
+  const [about] = Object.values(call.arguments);
+  const same = rest.flatMap((one) => (one.choices.length || !(one.name in call.arguments) ? [] : [[one.name, call.arguments[one.name] ?? ""] as const]));
+  return { name, arguments: { ...(first && about ? { [first.name]: about } : {}), ...Object.fromEntries(same) } };
+}
+
+/** What a form comes to, a moment after the last key; null until that is known. */
+function useCheck(call: GoalCall): GoalCheck | null {
+  const [got, setGot] = useState<{ call: GoalCall; check: GoalCheck } | null>(null);
+  useEffect(() => {
+    const stop = new AbortController();
+    const ask = () => api.checkGoal(call, stop.signal).then((check) => setGot({ call, check }), (error: unknown) => stop.signal.aborted || reportError(error));
+    const timer = setTimeout(() => void ask(), 120);
+    return () => {
+      clearTimeout(timer);
+      stop.abort();
+    };
+  }, [call]);
+  return got?.call === call ? got.check : null;
+}
+
+function GoalField({ argument: { name, kind, title, wants, choices, words, omitted, required }, call }: { argument: Argument; call: GoalCall }) {
+  const value = call.arguments[name] ?? "";
+  const set = (text: string) => changeGoal({ call: { ...call, arguments: { ...call.arguments, [name]: text } } });
+  if (kind === "words") {
+    return (
+      <Field name={title} inline>
+        <select className={review.field} aria-label={title} value={value} onChange={(event) => set(event.target.value)}>
+          <option value="">{words[omitted] ?? omitted}</option>
+          {choices.map((word) => (
+            <option key={word} value={word}>
+              {words[word] ?? word}
+            </option>
+          ))}
+        </select>
+      </Field>
+    );
+  }
+  return (
+    <Field name={title} inline={kind === "text"}>
+      <div className={css.field}>
+        <input className={[review.field, review.code].join(" ")} aria-label={title} title={wants} placeholder={omitted || (required ? "Is(label)" : "")} value={value} spellCheck={false} onChange={(event) => set(event.target.value)} />
+        {kind === "text" && <small className={review.dim}>{wants}</small>}
+      </div>
+      {kind === "extractor" && <Suggestions value={value} onPick={set} always={required} />}
+    </Field>
+  );
+}
+
+/** Extractors for the hulls that are selected in the view; always: says how to get some. */
+function Suggestions({ value, onPick, always }: { value: string; onPick: (text: string) => void; always: boolean }) {
+  const asset = useWorkspace((state) => (state.showing.kind === "source" ? state.asset : null));
+  const selection = useWorkspace((state) => state.selection);
+  const fetch = useCallback(() => (asset !== null && selection.size ? api.extractorsFor(asset, [...selection]) : Promise.resolve([])), [asset, selection]);
+  const found = useFetched(fetch);
+  if (!selection.size) return always && !value ? <small className={review.dim}>Select hulls in the view, or type which.</small> : null;
+  if (!Array.isArray(found) || asset === null) return null;
+  return (
+    <div className={css.suggestions} role="group" aria-label="For the selected hulls">
+      {found.map(({ text, sentence, places }) => (
+        <button key={text} type="button" title={sentence} aria-pressed={text === value} onClick={() => onPick(text)} {...whilePointed(() => setHighlight({ what: text, assets: { [asset]: places } }), () => setHighlight(null))}>
+          <code className={review.code}>{text}</code>
+          <span>{countText(places.length, "hull")} here</span>
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The goal in words, or where and why it is none; bare: a form that nothing is typed in yet has no error. */
+function Checked({ check: { error, sentence }, bare }: { check: GoalCheck; bare: boolean }) {
+  if (error === null) return <p role="status">{sentence}</p>;
+  return bare ? null : (
+    <pre className={css.error} role="alert">
+      {error}
+    </pre>
+  );
+}
+
+/** How trying it goes, and what came of it: the first failure with its picture. */
+function Outcome({ job }: { job: Job }) {
+  const failed = useMemo(() => job.lines.filter(({ status }) => status === "failed"), [job.lines]);
+  const shown = failed.find(({ picture }) => picture !== null);
+  if (job.state === "running") return <JobProgress job={job} unit="asset" />;
+  return (
+    <div>
+      <JobNote job={job} />
+      {shown?.picture && <EnlargeablePicture source={api.goalPicture(shown.asset, shown.picture)} text={`${shown.asset}: ${shown.text}`} />}
+      <JobLines lines={failed} />
+    </div>
+  );
+}
