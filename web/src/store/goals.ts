@@ -11,6 +11,9 @@ export const failsGoal = ({ outcome, accepted }: GoalResultView): boolean => (ou
 export const failingGoals = (card: Card | undefined, texts?: readonly string[]): readonly GoalResultView[] =>
   card?.excluded ? [] : (card?.goals.filter((goal) => failsGoal(goal) && (texts?.includes(goal.goal) ?? true)) ?? []);
 
+/** What stands out of a result: its flags, and goals that fail on it. */
+export const flagsOf = (card: Card): readonly string[] => [...card.flags, ...failingGoals(card).map((goal) => `goal ${goal.name} ${goalText(goal)}`)];
+
 /** Whether a goal of an asset fails or was not tried. */
 export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.outcome === null || failsGoal(goal));
 

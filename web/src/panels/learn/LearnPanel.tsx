@@ -84,7 +84,8 @@ function LearnState() {
   const assets = useProject((state) => countReadable(state.cards));
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
-  const said = summarizeOutcome(outcome, assets, { assessment, assessing, goals: useProject(openGoals) });
+  const goals = useProject(openGoals);
+  const said = summarizeOutcome(outcome, assets, { assessment, assessing, goals });
   const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">

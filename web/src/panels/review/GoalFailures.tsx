@@ -20,11 +20,11 @@ export function GoalsOfAsset({ asset }: { asset: string }) {
   if (!card?.goals.length || card.output === "none") return null;
   const fail = card.goals.filter(({ outcome }) => outcome === "failed" || outcome === "broken");
   const others = card.goals.filter((goal) => !fail.includes(goal));
-  const open = fail.some(failsGoal);
+  const open = fail.filter(failsGoal).length;
   return (
-    <Section title="Goals" aside={open ? <span className={review.bad}>✗ {countText(fail.filter(failsGoal).length, "goal")} {"fail"}</span> : null}>
+    <Section title="Goals" aside={open > 0 && <span className={review.bad}>✗ {open === 1 ? "one fails" : `${open} fail`}</span>}>
       <GoalFailures asset={asset} goals={fail} />
-      {open && (
+      {open > 0 && (
         <Button
           icon={Check}
           disabled={!isUpToDate(card)}
@@ -44,23 +44,27 @@ export function GoalsOfAsset({ asset }: { asset: string }) {
   );
 }
 
+/** The picture of a failure, if there is one. */
+export function GoalPicture({ asset, goal }: { asset: string; goal: GoalResultView }) {
+  return goal.picture && <EnlargeablePicture source={api.goalPicture(asset, goal.picture)} text={`${goal.name} ${goalText(goal)}`} />;
+}
+
 /** Goals that fail on a result, each with its picture first; a click on the sentence shows the hulls at fault. */
-export function GoalFailures({ asset, goals }: { asset: string; goals: readonly GoalResultView[] }) {
+function GoalFailures({ asset, goals }: { asset: string; goals: readonly GoalResultView[] }) {
   return goals.map((goal) => {
-    const text = `${goal.name} ${goalText(goal)}`;
     const Icon = goal.accepted ? CircleCheck : CircleAlert;
     const words = (
       <>
         <Icon size={15} aria-hidden />
         <span>
-          {text}
+          {goal.name} {goalText(goal)}
           {goal.before === "failed" && <span className={review.dim}> · as before the edit</span>}
         </span>
       </>
     );
     return (
       <div key={goal.name} className={css.failure} data-open={failsGoal(goal)}>
-        {goal.picture !== null && <EnlargeablePicture source={api.goalPicture(asset, goal.picture)} text={text} />}
+        <GoalPicture asset={asset} goal={goal} />
         {goal.hulls.length ? (
           <button type="button" className={review.finding} title={`Select ${countText(goal.hulls.length, "hull")} at fault`} onClick={() => selectInOutput(asset, goal.hulls)}>
             {words}

@@ -28,6 +28,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
   const proposal = freeName(check?.name || call.name, goals, was);
   const job = useJob("goal");
   const mine = job && check && job.title === `Trying ${check.text}` ? job : null;
+  const isBare = form?.arguments.some((one) => one.required && !call.arguments[one.name]); // nothing to complain of yet
   const ready = check !== null && check.error === null;
   useEffect(showSource, []);
   const keep = async () => {
@@ -36,6 +37,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
   };
   return (
     <form
+      ref={toView}
       className={css.form}
       aria-label={was === null ? "A new goal" : `Change ${was}`}
       onSubmit={(event) => {
@@ -51,19 +53,23 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
         ))}
       </div>
       {form && (
-        <p className={review.dim}>
-          {form.summary} <code className={review.code}>{form.usage}</code>
+        <p>
+          <span role="status">{check?.sentence || form.summary}</span> <code className={[review.code, review.dim].join(" ")}>{form.usage}</code>
         </p>
       )}
       {form?.arguments.map((argument) => (
         <GoalField key={argument.name} argument={argument} call={call} />
       ))}
-      {check && <Checked check={check} bare={form?.arguments.some((one) => one.required && !call.arguments[one.name]) ?? false} />}
+      {check?.error && !isBare && (
+        <pre className={css.error} role="alert">
+          {check.error}
+        </pre>
+      )}
       <Field name="Name" inline>
         <input className={review.field} aria-label="Name of the goal" value={name ?? proposal} spellCheck={false} onChange={(event) => changeGoal({ name: event.target.value })} />
       </Field>
       {mine && <Outcome job={mine} />}
-      <div className={review.row}>
+      <div className={[review.row, css.ending].join(" ")}>
         <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => check && void tryGoal(check.text)}>
           Try it
         </Button>
@@ -76,6 +82,10 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
       </div>
     </form>
   );
+}
+
+function toView(form: HTMLElement | null): void {
+  form?.scrollIntoView({ block: "start" });
 }
 
 /** Goals select hulls of the asset as it comes. */
@@ -143,7 +153,7 @@ function Suggestions({ value, onPick, always }: { value: string; onPick: (text: 
   if (!selection.size) return always && !value ? <small className={review.dim}>Select hulls in the view, or type which.</small> : null;
   if (!Array.isArray(found) || asset === null) return null;
   return (
-    <div className={css.suggestions} role="group" aria-label="For the selected hulls">
+    <div className={css.suggestions} data-always={always} role="group" aria-label="For the selected hulls" onPointerDown={(event) => event.preventDefault()}>
       {found.map(({ text, sentence, places }) => (
         <button key={text} type="button" title={sentence} aria-pressed={text === value} onClick={() => onPick(text)} {...whilePointed(() => setHighlight({ what: text, assets: { [asset]: places } }), () => setHighlight(null))}>
           <code className={review.code}>{text}</code>
@@ -154,23 +164,13 @@ function Suggestions({ value, onPick, always }: { value: string; onPick: (text: 
   );
 }
 
-/** The goal in words, or where and why it is none; bare: a form that nothing is typed in yet has no error. */
-function Checked({ check: { error, sentence }, bare }: { check: GoalCheck; bare: boolean }) {
-  if (error === null) return <p role="status">{sentence}</p>;
-  return bare ? null : (
-    <pre className={css.error} role="alert">
-      {error}
-    </pre>
-  );
-}
-
 /** How trying it goes, and what came of it: the first failure with its picture. */
 function Outcome({ job }: { job: Job }) {
   const failed = useMemo(() => job.lines.filter(({ status }) => status === "failed"), [job.lines]);
   const shown = failed.find(({ picture }) => picture !== null);
   if (job.state === "running") return <JobProgress job={job} unit="asset" />;
   return (
-    <div>
+    <div className={css.outcome}>
       <JobNote job={job} />
       {shown?.picture && <EnlargeablePicture source={api.goalPicture(shown.asset, shown.picture)} text={`${shown.asset}: ${shown.text}`} />}
       <JobLines lines={failed} />

@@ -5,7 +5,7 @@ import { perform } from "../../store/edits";
 import { countGoal, startGoal, useGoalDraft } from "../../store/goals";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
-import { openAsset } from "../../store/workspace";
+import { visit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
 import type { GoalView } from "../../wire";
@@ -65,7 +65,7 @@ function Counts({ name, onOpen }: { name: string; onOpen: () => void }) {
   const why = useProject(whyNotApply);
   const [first] = fails;
   const show = () => {
-    openAsset(first ?? null);
+    if (first !== undefined) visit(first, { kind: "result", of: "output" });
     onOpen();
   };
   return (
