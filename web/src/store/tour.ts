@@ -31,7 +31,7 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
 /** Whether a first program is learned, and it is known how sure its edits are. */
 const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
 const isSignedOff = ({ assessment, cards }: ProjectState) =>
-  !openGoals({ cards }) && assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0;
+  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0 && !openGoals({ cards });
 /** Whether the person has answered what the program asked first. */
 const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
   project.answers.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.need_review === 0;

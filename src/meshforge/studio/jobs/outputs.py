@@ -63,7 +63,8 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         if goals := project.read_goals():
             with progress.stage(len(jobs), "trying goals") as advance:
                 run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=advance)
-                list(project.try_goals(goals, only=[job.id for job in jobs], execution=run))
+                for one in project.try_goals(goals, only=[job.id for job in jobs], execution=run):
+                    session.refresh_queue.add([one.asset])
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
