@@ -52,9 +52,9 @@ def test_a_form_comes_to_a_goal_or_to_the_reason_why_not(tmp_path: Path) -> None
             "    graspable(Is(tap))",
             "                 ^^^",
         ]
-        assert "no such" in check("flies")["error"] or "flies" in check("flies")["error"]
+        assert "flies" in check("flies")["error"]
         rows = ok(studio.post("/api/goal/extractors", {"asset": FIRST, "select": ["left_low"]}))
-        assert [row["text"] for row in rows][0] == "Is(leg)"  # type: ignore[index]
+        assert "Is(leg)" in [dict(row)["text"] for row in rows]  # type: ignore[call-overload]
         assert studio.post("/api/goal/extractors", {"asset": FIRST, "select": ["none"]}).status_code == 400
 
 
@@ -74,7 +74,8 @@ def test_goals_are_edits_that_are_undone_and_bad_ones_change_nothing(tmp_path: P
         assert _kept(project) == {"carries": KEPT}
         studio.edit("goal", name="carries", text=None)
         studio.cards(lambda cards: not any(card["goals"] for card in cards.values()))
-        project.layout.settings.write_text(project.layout.settings.read_text() + '\n[goals]\nbad = "flies("\n')
+        text = project.layout.settings.read_text().replace("[goals]", '[goals]\nbad = "flies("')
+        project.layout.settings.write_text(text)
         hello = studio.until(lambda hello: bool(hello["project"]["goals"] and hello["project"]["problem"]))
         assert hello["project"]["goals"][0]["error"].startswith("bad:1:")
         studio.edit("goal", name="bad", text=None)

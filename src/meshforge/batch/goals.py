@@ -143,7 +143,7 @@ def _locate_kept(out: Path, asset: str) -> Path:
 
 
 def find_goal_picture(out: Path, asset: str, key: str) -> Path | None:
-    """Return the picture of a failure on an asset, None where there is none; key: the word before `.png` in its name."""
+    """Return the picture of a failure on an asset, if there is one; key: the word before `.png` in its name."""
     path = _locate_picture(_locate_kept(out, asset), key)
     is_ours = path.resolve().is_relative_to((out / STATE / "goals").resolve())
     return path if is_ours and path.is_file() else None

@@ -253,7 +253,13 @@ def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestio
                 f"On {name} {join_names([one.describe() for one in failing])}.{often} Is the result right all the same?"
             )
             known = found.assets[name].goals  # a reply stands for all of them
-            yield _ask_result(run, max(gain, _GOAL_GAIN), seconds, text, goals=[one.goal for one in known if one.fails or one.accepted])
+            yield _ask_result(
+                run,
+                max(gain, _GOAL_GAIN),
+                seconds,
+                text,
+                goals=[one.goal for one in known if one.fails or one.accepted],
+            )
         else:
             yield _ask_result(run, gain, seconds)
 
