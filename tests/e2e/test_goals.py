@@ -53,8 +53,8 @@ def test_a_form_comes_to_a_goal_or_to_the_reason_why_not(tmp_path: Path) -> None
             "                 ^^^",
         ]
         assert "flies" in check("flies")["error"]
-        rows = ok(studio.post("/api/goal/extractors", {"asset": FIRST, "select": ["left_low"]}))
-        assert "Is(leg)" in [dict(row)["text"] for row in rows]  # type: ignore[call-overload]
+        rows = studio.post("/api/goal/extractors", {"asset": FIRST, "select": ["left_low"]}).json()
+        assert "Is(leg)" in [row["text"] for row in rows]
         assert studio.post("/api/goal/extractors", {"asset": FIRST, "select": ["none"]}).status_code == 400
 
 
@@ -77,7 +77,7 @@ def test_goals_are_edits_that_are_undone_and_bad_ones_change_nothing(tmp_path: P
         text = project.layout.settings.read_text().replace("[goals]", '[goals]\nbad = "flies("')
         project.layout.settings.write_text(text)
         hello = studio.until(lambda hello: bool(hello["project"]["goals"] and hello["project"]["problem"]))
-        assert hello["project"]["goals"][0]["error"].startswith("bad:1:")
+        assert hello["project"]["goals"][0]["error"].startswith("unknown goal")
         studio.edit("goal", name="bad", text=None)
         studio.until(lambda hello: not hello["project"]["problem"])
 
@@ -86,7 +86,7 @@ def test_what_fails_has_a_picture_and_stays_open_until_it_is_accepted(tmp_path: 
     project = applied(tmp_path)
     with opened(tmp_path, project.folder) as studio:
         studio.settled()
-        job = _run(studio, kind="goal", text=FAILS)
+        job = _run(studio, kind="check", goal=FAILS)
         assert job["message"] == "graspable holds on 0 of 3 assets, 0 before the edit."
         assert [(line["asset"], line["status"]) for line in job["lines"]] == [
             (one, "failed") for one in (FIRST, SECOND, THIRD)
@@ -95,7 +95,7 @@ def test_what_fails_has_a_picture_and_stays_open_until_it_is_accepted(tmp_path: 
         assert picture.content.startswith(b"\x89PNG")
         for asset, key in ((FIRST, "../../x"), (FIRST, "0" * 12), ("../" + FIRST, job["lines"][0]["picture"])):
             assert studio.get("/api/goal/picture", asset=asset, v=key).status_code == 404
-        assert studio.post("/api/jobs", {"kind": "goal", "text": "flies("}).status_code == 400
+        assert studio.post("/api/jobs", {"kind": "check", "goal": "flies("}).status_code == 400
         studio.edit("goal", name="grip", text=FAILS)
         studio.cards(lambda cards: all(_goal(card)["outcome"] == "failed" for card in cards.values() if card["goals"]))
         studio.edit("review", ids=[FIRST], verdict="accepted")

@@ -35,7 +35,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest =
-  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob | GoalJob;
+  ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -77,7 +77,6 @@ export interface Everything {
   ExcludeAssets: ExcludeAssets;
   ExportJob: ExportJob;
   ExtractorSuggestion: ExtractorSuggestion;
-  ExtractorsRequest: ExtractorsRequest;
   FamilyOffer: FamilyOffer;
   Fault: Fault;
   Figure: Figure;
@@ -86,9 +85,6 @@ export interface Everything {
   FolderView: FolderView;
   ForecastJob: ForecastJob;
   GoalCall: GoalCall;
-  GoalCheck: GoalCheck;
-  GoalForm: GoalForm;
-  GoalJob: GoalJob;
   GoalResultView: GoalResultView;
   GoalView: GoalView;
   Guess: Guess;
@@ -787,10 +783,11 @@ export interface CheckFinding {
   remedy: string;
 }
 /**
- * Run all checks on the outputs of all assets.
+ * Run all checks on the outputs of all assets, or try a goal on them that is not kept.
  */
 export interface CheckJob {
   kind: "check";
+  goal?: string | null;
 }
 /**
  * A picture. name: the one that its address takes; text: what it shows.
@@ -1018,7 +1015,8 @@ export interface RuleLine {
   nothing: string[];
 }
 /**
- * A goal of the project. sentence: it in words; call: as a form has it, null where it is none; error: why.
+ * A goal of the project, or what a form comes to, with a proposal for its name. sentence: it in words; call: as a
+ * form has it, null where it is none; error: why, where in the text, and what helps.
  */
 export interface GoalView {
   name: string;
@@ -1123,26 +1121,17 @@ export interface LanguageView {
   actions: ActionForm[];
   operators: Operator[];
   directions: string[];
-  goals: GoalForm[];
+  goals: Operator[];
 }
 /**
- * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
+ * An extractor's operator and its operands, for completion, or a goal and its arguments: `words`, an `extractor` or
+ * a `text`, with their defaults as `omitted`; base: whether it is a base extractor.
  */
 export interface Operator {
   name: string;
   usage: string;
   summary: string;
   base: boolean;
-  arguments: Argument[];
-}
-/**
- * A goal as a form. summary: what it tries; usage: its syntax. Arguments are `words`, an `extractor` or a `text`;
- * omitted: their default, or what happens without.
- */
-export interface GoalForm {
-  name: string;
-  summary: string;
-  usage: string;
   arguments: Argument[];
 }
 /**
@@ -1308,13 +1297,6 @@ export interface ExtractorSuggestion {
   places: number[];
 }
 /**
- * Which extractors select some hulls of an asset, by name?
- */
-export interface ExtractorsRequest {
-  asset: string;
-  select: string[];
-}
-/**
  * A folder in another. project: whether it is a project.
  */
 export interface FolderEntry {
@@ -1340,23 +1322,6 @@ export interface FolderView {
 export interface ForecastJob {
   kind: "forecast";
   every_hull: boolean;
-}
-/**
- * What a form comes to. text: the goal; error: why it is none, where in the text, and what helps; sentence: it in
- * words; name: a proposal of what to call it.
- */
-export interface GoalCheck {
-  text: string;
-  error: string | null;
-  sentence: string;
-  name: string;
-}
-/**
- * Try a goal that is not kept on all assets.
- */
-export interface GoalJob {
-  kind: "goal";
-  text: string;
 }
 /**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.

@@ -1,7 +1,7 @@
 // Goals: how many results each holds on, which are open, and the form of one that is being made or changed.
 import { create } from "zustand";
 import type { Card, GoalCall, GoalResultView, GoalView } from "../wire";
-import { useProject } from "./project";
+import { type ProjectState, useProject } from "./project";
 import { countText } from "./words";
 
 /** Whether a goal failed or broke, and nobody accepted that. */
@@ -18,15 +18,13 @@ export const flagsOf = (card: Card): readonly string[] => [...card.flags, ...fai
 export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.outcome === null || failsGoal(goal));
 
 /** `goals fail on 1 result, were not tried on 2`; null where all that apply hold, or are accepted. */
-export function openGoalsText(cards: readonly Card[]): string | null {
+export function openGoals(state: Pick<ProjectState, "cards">): string | null {
+  const cards = Object.values(state.cards);
   const failing = cards.filter((card) => failingGoals(card).length).length;
   const untried = cards.filter((card) => !card.excluded && card.goals.some(({ outcome }) => outcome === null)).length;
   const parts = [failing && `fail on ${countText(failing, "result")}`, untried && `were not tried on ${untried}`].filter(Boolean);
   return parts.length ? `goals ${parts.join(", ")}` : null;
 }
-
-/** The same of the project. */
-export const openGoals = ({ cards }: { cards: Readonly<Record<string, Card>> }): string | null => openGoalsText(Object.values(cards));
 
 /** How many assets a goal holds on, and so on, and those on which it fails. */
 export function countGoal(cards: readonly Card[], name: string) {
@@ -50,11 +48,7 @@ export function goalText({ outcome, why, accepted }: GoalResultView): string {
 }
 
 /** The form in hand; name: null where the proposal stands; was: the goal that is changed. */
-export interface GoalDraft {
-  readonly call: GoalCall;
-  readonly name: string | null;
-  readonly was: string | null;
-}
+export type GoalDraft = Readonly<{ call: GoalCall; name: string | null; was: string | null }>;
 
 export const useGoalDraft = create<{ draft: GoalDraft | null }>()(() => ({ draft: null }));
 

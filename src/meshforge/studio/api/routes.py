@@ -28,7 +28,7 @@ from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
-from meshforge.studio.wire.family import ExtractorSuggestion, GoalCall, GoalCheck
+from meshforge.studio.wire.family import ExtractorSuggestion, GoalCall, GoalView
 from meshforge.studio.wire.jobs import Job, JobRequest
 from meshforge.studio.wire.program import CoverageView, Guess, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
@@ -140,16 +140,17 @@ def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
 
 
 @router.post("/api/goal/check")
-def check_goal(session: CurrentSession, request: GoalCall) -> GoalCheck:
+def check_goal(session: CurrentSession, request: GoalCall) -> GoalView:
     """Return what a form comes to, and whether that is a goal."""
     return goals.check_goal(session.project, request)
 
 
 @router.post("/api/goal/extractors")
-def suggest_extractors(session: CurrentSession, request: requests.ExtractorsRequest) -> tuple[ExtractorSuggestion, ...]:
+def suggest_extractors(
+    session: CurrentSession, asset: BodyText, select: Annotated[tuple[str, ...], Body()]
+) -> tuple[ExtractorSuggestion, ...]:
     """Return extractors that select some hulls of an asset."""
-    mesh, program = session.mesh(request.asset), session.present_program
-    return goals.suggest_extractors(session.project, request.asset, mesh, request.select, program)
+    return goals.suggest_extractors(session.project, asset, session.mesh(asset), select, session.present_program)
 
 
 @router.get("/api/goal/picture")

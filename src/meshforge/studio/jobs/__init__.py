@@ -27,10 +27,8 @@ def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
         case wire.AskJob():
             return start_ask(session, request)
         case wire.CheckJob():
-            return start_check(session)
+            return start_check(session) if request.goal is None else start_goal(session, request.goal)
         case wire.DownloadJob():
             return start_download(session, request)
-        case wire.GoalJob():
-            return start_goal(session, request)
         case _:
             assert_never(request)

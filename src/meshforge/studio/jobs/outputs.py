@@ -3,10 +3,10 @@ exporting it into a folder of its own."""
 
 import os
 import shutil
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal, get_args
 from uuid import uuid4
 
 from meshforge import batch
@@ -28,7 +28,7 @@ from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.family import Card, picture_key
-from meshforge.studio.wire.jobs import ApplyJob, ExportJob, GoalJob, Job, JobLine
+from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine, JobStatus
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
@@ -112,36 +112,33 @@ def prepare_new(
     return results, unclear
 
 
-def start_goal(session: Session, request: GoalJob) -> Job:
+def start_goal(session: Session, text: str) -> Job:
     """Start to try a goal on all assets, before and after the program. Raises ProgramError where it does not parse."""
-    project = session.project
-    goal = parse_goal(request.text, "goal", project.words)
-    total = len(project.assets())
+    project, counts = session.project, Counter[str]()
+    goal = parse_goal(text, "goal", project.words)
 
     def work(progress: JobProgress) -> str:
         run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=progress.advance)
-        found = list[Mapping[str, str]]()
-        for one in project.try_goals({"": goal}, execution=run):
-            progress.add_line(_goal_line(one))
-            found.append({when: way[""].outcome for when, way in (("now", one.after), ("was", one.before)) if way})
-        counts = {word: sum(one.get("now") == word for one in found) for word in get_args(GoalOutcome)}
-        tried = pluralize(total - counts["untried"], "asset")
-        before = sum(one.get("was") == "passed" for one in found)
-        was = f", {before} before the edit" if any("was" in one for one in found) else ""
-        away = f"; it does not apply to {counts['untried']}" if counts["untried"] else ""
-        return f"{goal.word()} holds on {counts['passed']} of {tried}{was}{away}."
+        for one in project.try_goals({text: goal}, execution=run):
+            line = _goal_line(one)
+            progress.add_line(line)
+            counts.update([line.status, *(f"{found.outcome} before" for found in one.before.values())])
+        tried = pluralize(counts["done"] + counts["failed"], "asset")
+        away = f"; it does not apply to {counts['skipped']}" if counts["skipped"] else ""
+        return f"{goal.word()} holds on {counts['done']} of {tried}, {counts['passed before']} before the edit{away}."
 
-    return session.jobs.start("goal", f"Trying {goal}", total, work)
+    return session.jobs.start("goal", f"Trying {goal}", len(project.assets()), work)
+
+
+_GOAL_WORDS: Mapping[GoalOutcome, JobStatus] = {"passed": "done", "untried": "skipped"}
 
 
 def _goal_line(one: batch.AssetGoals) -> JobLine:
     if one.error:
         return JobLine(asset=one.asset, status="failed", text=one.error)
-    result, picture = one.after[""], one.pictures.get("")
-    status: Literal["done", "skipped", "failed"] = (
-        "done" if result.outcome == "passed" else "skipped" if result.outcome == "untried" else "failed"
-    )
-    return JobLine(asset=one.asset, status=status, text=result.why, picture=picture_key(picture) if picture else None)
+    (result,), picture = one.after.values(), next(iter(one.pictures.values()), None)
+    status, key = _GOAL_WORDS.get(result.outcome, "failed"), picture_key(picture) if picture else None
+    return JobLine(asset=one.asset, status=status, text=result.why, picture=key)
 
 
 def start_check(session: Session) -> Job:

@@ -2,7 +2,7 @@
 hulls that a person selects."""
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection
 from dataclasses import fields
 from typing import Any, cast
 
@@ -34,54 +34,45 @@ _SEARCH = Options(budget=2.0, repair=False, suggest_orientation=False)
 """How extractors are looked for while a person waits [s]."""
 
 
-def list_goal_forms() -> tuple[forms.GoalForm, ...]:
+def list_goal_forms() -> tuple[forms.Operator, ...]:
     """Return a form for each goal, those of plug-ins among them."""
     return tuple(
-        forms.GoalForm(
-            name=kind.word(), summary=kind.summary(), usage=kind.usage(), arguments=tuple(_list_arguments(kind))
+        forms.Operator(
+            name=kind.word(), summary=kind.summary(), usage=kind.usage(), base=False, arguments=_list_arguments(kind)
         )
         for kind in GOALS.loadable().values()
     )
 
 
-def _list_arguments(kind: type[Goal]) -> Iterator[forms.Argument]:
+def _list_arguments(kind: type[Goal]) -> tuple[forms.Argument, ...]:
     options, texts = kind.options(), {one.name: one.metadata for one in fields(cast(Any, kind))}
-    for name, argument in kind.arguments().items():
-        value = _value_of(argument)
-        default = None if options.get(name) is None else value.show(options[name])
-        yield forms.Argument(
+    values = {name: _value_of(argument) for name, argument in kind.arguments().items()}
+    defaults = {name: "" if one is None else values[name].show(one) for name, one in options.items()}
+    return tuple(
+        forms.Argument(
             name=name,
             kind="words" if value.choices else "extractor" if isinstance(value, ExtractorArgument) else "text",
             title=texts[name].get("title", name.capitalize()),
             wants=value.wants,
-            choices=tuple(word for word in value.choices if word != default),
+            choices=tuple(word for word in value.choices if word != defaults.get(name)),
             words=texts[name].get("words", {}),
-            omitted=texts[name].get("omitted", default or ""),
+            omitted=texts[name].get("omitted", defaults.get(name, "")),
             required=name not in options,
         )
+        for name, value in values.items()
+    )
 
 
 def _value_of(argument: ArgumentType) -> ArgumentType:
     return argument.value if isinstance(argument, OptionArgument) else argument
 
 
-def check_goal(project: Project, call: wire.GoalCall) -> wire.GoalCheck:
-    """Return the goal that a form comes to, and whether it is one."""
+def check_goal(project: Project, call: wire.GoalCall) -> wire.GoalView:
+    """Return what a form comes to, and whether that is a goal; with a proposal for its name."""
     kind = GOALS.get(call.name)
-    given = {name: call.arguments.get(name, "").strip() for name in (kind.arguments() if kind else ())}
-    words = [
-        f"{argument.choices[0]} = {given[name]}" if isinstance(argument, OptionArgument) else given[name]
-        for name, argument in (kind.arguments() if kind else {}).items()
-        if given[name]
-    ]
-    text = f"{call.name}({', '.join(words)})" if words else call.name
-    try:
-        goal = parse_goal(text, "goal", project.words)
-    except MeshForgeError as error:
-        return wire.GoalCheck(text=text, error="\n".join(filter(None, [error.problem, error.remedy])))
-    labels = [label for one in _extractors_of(goal).values() for label in labels_of(one)]
-    name = re.sub(r"\W+", "_", "_".join([goal.word(), *labels[:1]]))
-    return wire.GoalCheck(text=str(goal), sentence=_explain(goal), name=name)
+    rows = [(one, call.arguments.get(name, "").strip()) for name, one in (kind.arguments() if kind else {}).items()]
+    words = [f"{one.choices[0]} = {text}" if isinstance(one, OptionArgument) else text for one, text in rows if text]
+    return _view_goal("", f"{call.name}({', '.join(words)})" if words else call.name, project.words)
 
 
 def list_goal_views(project: Project) -> tuple[wire.GoalView, ...]:
@@ -91,24 +82,20 @@ def list_goal_views(project: Project) -> tuple[wire.GoalView, ...]:
 
 def _view_goal(name: str, text: str, words: tuple[str, ...]) -> wire.GoalView:
     try:
-        goal = parse_goal(text, name, words)
+        goal = parse_goal(text, name or "goal", words)
     except MeshForgeError as error:
-        return wire.GoalView(name=name, text=text, error=error.message)
-    shown = {one: _value_of(goal.arguments()[one]).show(value) for one, value in goal.values().items()}
-    call = wire.GoalCall(name=goal.word(), arguments=shown)
-    return wire.GoalView(name=name, text=str(goal), sentence=_explain(goal), call=call)
-
-
-def _extractors_of(goal: Goal) -> Mapping[str, Extractor]:
-    return {name: value for name, value in goal.values().items() if isinstance(value, Extractor)}
-
-
-def _explain(goal: Goal) -> str:
-    """A goal as a sentence: its summary with what it selects in words."""
-    sentence, first = type(goal).summary(), next(iter(_extractors_of(goal).values()), None)
-    if first:
+        return wire.GoalView(name=name, text=text, error="\n".join(filter(None, [error.problem, error.remedy])))
+    first = next((one for one in goal.values().values() if isinstance(one, Extractor)), None)
+    sentence, labels = goal.summary(), labels_of(first)[:1] if first else ()
+    if first:  # what it selects stands in its summary
         sentence = re.sub("a selection", lambda _: explain(first), sentence, count=1, flags=re.IGNORECASE)
-    return sentence[:1].upper() + sentence[1:]
+    arguments = {one: _value_of(goal.arguments()[one]).show(value) for one, value in goal.values().items()}
+    return wire.GoalView(
+        name=name or re.sub(r"\W+", "_", "_".join([goal.word(), *labels])),
+        text=str(goal),
+        sentence=sentence[:1].upper() + sentence[1:],
+        call=wire.GoalCall(name=goal.word(), arguments=arguments),
+    )
 
 
 def suggest_extractors(

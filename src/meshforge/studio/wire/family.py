@@ -52,18 +52,9 @@ class GoalCall(Wire):
     arguments: dict[str, str] = Field(default_factory=dict)
 
 
-class GoalCheck(Wire):
-    """What a form comes to. text: the goal; error: why it is none, where in the text, and what helps; sentence: it in
-    words; name: a proposal of what to call it."""
-
-    text: str
-    error: str | None = None
-    sentence: str = ""
-    name: str = ""
-
-
 class GoalView(Wire):
-    """A goal of the project. sentence: it in words; call: as a form has it, null where it is none; error: why."""
+    """A goal of the project, or what a form comes to, with a proposal for its name. sentence: it in words; call: as a
+    form has it, null where it is none; error: why, where in the text, and what helps."""
 
     name: str
     text: str

@@ -12,12 +12,15 @@ JobKind = Literal[
 LabelEditKind = Literal["label-all", "label-vlm"]
 
 
+JobStatus = Literal["done", "edited", "unchanged", "failed", "skipped"]
+
+
 class JobLine(Wire):
     """What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
     picture: the key of that of a goal that fails."""
 
     asset: str
-    status: Literal["done", "edited", "unchanged", "failed", "skipped"]
+    status: JobStatus
     text: str = ""
     before: tuple[str, ...] = ()
     picture: str | None = None
@@ -100,16 +103,10 @@ class AskJob(Wire):
 
 
 class CheckJob(Wire):
-    """Run all checks on the outputs of all assets."""
+    """Run all checks on the outputs of all assets, or try a goal on them that is not kept."""
 
     kind: Literal["check"] = "check"
-
-
-class GoalJob(Wire):
-    """Try a goal that is not kept on all assets."""
-
-    kind: Literal["goal"] = "goal"
-    text: str
+    goal: str | None = None
 
 
 class DownloadJob(Wire):
@@ -120,18 +117,7 @@ class DownloadJob(Wire):
     signed_only: bool = True
 
 
-JobRequest = (
-    ApplyJob
-    | DecomposeJob
-    | RebuildJob
-    | ExportJob
-    | LabelJob
-    | ForecastJob
-    | AskJob
-    | CheckJob
-    | DownloadJob
-    | GoalJob
-)
+JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob | DownloadJob
 
 
 class AssetLabelUpdate(Wire):

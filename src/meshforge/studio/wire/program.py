@@ -77,16 +77,6 @@ class ActionForm(Wire):
     clashes: tuple[tuple[ArgumentValue, ArgumentValue], ...] = ()
 
 
-class GoalForm(Wire):
-    """A goal as a form. summary: what it tries; usage: its syntax. Arguments are `words`, an `extractor` or a `text`;
-    omitted: their default, or what happens without."""
-
-    name: str
-    summary: str
-    usage: str
-    arguments: tuple[Argument, ...]
-
-
 class RuleView(Wire):
     """A rule of a program, as text and as a sentence."""
 
@@ -211,7 +201,8 @@ class Guess(Wire):
 
 
 class Operator(Wire):
-    """An extractor's operator and its operands, for completion; base: whether it is a base extractor."""
+    """An extractor's operator and its operands, for completion, or a goal and its arguments: `words`, an `extractor` or
+    a `text`, with their defaults as `omitted`; base: whether it is a base extractor."""
 
     name: str
     usage: str
@@ -226,4 +217,4 @@ class LanguageView(Wire):
     actions: tuple[ActionForm, ...]
     operators: tuple[Operator, ...]
     directions: tuple[str, ...]
-    goals: tuple[GoalForm, ...]
+    goals: tuple[Operator, ...]

@@ -32,13 +32,6 @@ class HullOfAsset(Wire):
     hull: str
 
 
-class ExtractorsRequest(Wire):
-    """Which extractors select some hulls of an asset, by name?"""
-
-    asset: str
-    select: tuple[str, ...]
-
-
 class SimilarRequest(Wire):
     """Which hulls look like some? assets: where to look besides the hulls' own assets; null: in these alone; step: from
     0 on, how much they may differ."""

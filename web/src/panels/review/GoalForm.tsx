@@ -12,7 +12,7 @@ import { setHighlight, useWorkspace, visit } from "../../store/workspace";
 import { useFetched } from "../../pictures/useFetched";
 import { Button } from "../../ui/Button";
 import { whilePointed } from "../../ui/whilePointed";
-import type { Argument, GoalCall, GoalCheck, Job } from "../../wire";
+import type { Argument, GoalCall, GoalView, Job, Operator } from "../../wire";
 import { Field } from "../demonstrate/ArgumentField";
 import { EnlargeablePicture } from "./CheckPictures";
 import css from "./goals.module.css";
@@ -47,7 +47,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
     >
       <div className={css.kinds} role="group" aria-label="Goal">
         {forms.map((one) => (
-          <button key={one.name} type="button" aria-pressed={one.name === call.name} title={one.summary} onClick={() => changeGoal({ call: carry(one.arguments, call, one.name) })}>
+          <button key={one.name} type="button" aria-pressed={one.name === call.name} title={one.summary} onClick={() => changeGoal({ call: callOf(one, call) })}>
             {one.name}
           </button>
         ))}
@@ -94,16 +94,15 @@ function showSource(): void {
   if (asset !== null && showing.kind !== "source") visit(asset, { kind: "source" }, showing.kind === "steps" ? selection : []);
 }
 
-/** Another goal with what it is about, as that is the first argument of most. */
-function carry([first, ...rest]: readonly Argument[], call: GoalCall, name: string): GoalCall {
-  const [about] = Object.values(call.arguments);
-  const same = rest.flatMap((one) => (one.choices.length || !(one.name in call.arguments) ? [] : [[one.name, call.arguments[one.name] ?? ""] as const]));
-  return { name, arguments: { ...(first && about ? { [first.name]: about } : {}), ...Object.fromEntries(same) } };
+/** Another goal on the same hulls: these are the first argument of most. */
+function callOf({ name, arguments: [first] }: Operator, { arguments: given }: GoalCall): GoalCall {
+  const [about] = Object.values(given);
+  return { name, arguments: first && about ? { [first.name]: about } : {} };
 }
 
 /** What a form comes to, a moment after the last key; null until that is known. */
-function useCheck(call: GoalCall): GoalCheck | null {
-  const [got, setGot] = useState<{ call: GoalCall; check: GoalCheck } | null>(null);
+function useCheck(call: GoalCall): GoalView | null {
+  const [got, setGot] = useState<{ call: GoalCall; check: GoalView } | null>(null);
   useEffect(() => {
     const stop = new AbortController();
     const ask = () => api.checkGoal(call, stop.signal).then((check) => setGot({ call, check }), (error: unknown) => stop.signal.aborted || reportError(error));
