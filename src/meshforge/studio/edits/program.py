@@ -149,8 +149,8 @@ class SetGoal(base.Edit):
         if not self.name.strip():
             raise ProjectError("the goal has no name", remedy="Type one.")
         project.set_goal(self.name, self.text)
-        if self.was not in (None, self.name):
-            project.set_goal(str(self.was), None)
+        if self.was and self.was != self.name and self.was in project.settings.goals:
+            project.set_goal(self.was, None)
 
     def describe(self, project: Project) -> str:
         return f"goal {self.name} taken away" if self.text is None else f"goal {self.name}: {self.text}"

@@ -125,9 +125,11 @@ def start_goal(session: Session, text: str) -> Job:
             counts.update([line.status, *(f"{found.outcome} before" for found in one.before.values())])
         tried = pluralize(counts["done"] + counts["failed"], "asset")
         away = f"; it does not apply to {counts['skipped']}" if counts["skipped"] else ""
-        return f"{goal.word()} holds on {counts['done']} of {tried}, {counts['passed before']} before the edit{away}."
+        before = f", {counts['passed before']} before the edit" if project.program() else ""
+        return f"{goal.word()} holds on {counts['done']} of {tried}{before}{away}."
 
-    return session.jobs.start("goal", f"Trying {goal}", len(project.assets()), work)
+    total = len(set(project.assets()) - project.exclusions().keys())
+    return session.jobs.start("goal", f"Trying {goal}", total, work)
 
 
 _GOAL_WORDS: Mapping[GoalOutcome, JobStatus] = {"passed": "done", "untried": "skipped"}

@@ -12,7 +12,7 @@ import { setHighlight, useWorkspace, visit } from "../../store/workspace";
 import { useFetched } from "../../pictures/useFetched";
 import { Button } from "../../ui/Button";
 import { whilePointed } from "../../ui/whilePointed";
-import type { Argument, GoalCall, GoalView, Job, Operator } from "../../wire";
+import type { Argument, ExtractorSuggestion, GoalCall, GoalView, Job, Operator } from "../../wire";
 import { Field } from "../demonstrate/ArgumentField";
 import { EnlargeablePicture } from "./CheckPictures";
 import css from "./goals.module.css";
@@ -25,15 +25,20 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
   const goals = useProject((state) => state.project.goals);
   const form = forms.find((one) => one.name === call.name);
   const check = useCheck(call);
+  const suggested = useSuggestions();
   const proposal = freeName(check?.name || call.name, goals, was);
   const job = useJob("goal");
   const mine = job && check && job.title === `Trying ${check.text}` ? job : null;
   const isBare = form?.arguments.some((one) => one.required && !call.arguments[one.name]); // nothing to complain of yet
-  const ready = check !== null && check.error === null;
+  const ready = !isBare && !check?.error;
   useEffect(showSource, []);
+  /** Does something with the goal as it is in the form now, which may not be checked yet. */
+  const doWith = async (act: (text: string) => Promise<boolean>): Promise<boolean> => {
+    const { text, error } = await api.checkGoal(call);
+    return error === null && act(text);
+  };
   const keep = async () => {
-    const done = ready && (await perform({ kind: "goal", name: (name ?? proposal).trim(), text: check.text, was }));
-    if (done) dropGoal();
+    if (await doWith((text) => perform({ kind: "goal", name: (name ?? proposal).trim(), text, was }))) dropGoal();
   };
   return (
     <form
@@ -42,7 +47,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
       aria-label={was === null ? "A new goal" : `Change ${was}`}
       onSubmit={(event) => {
         event.preventDefault();
-        void keep();
+        keep().catch(reportError);
       }}
     >
       <div className={css.kinds} role="group" aria-label="Goal">
@@ -58,7 +63,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
         </p>
       )}
       {form?.arguments.map((argument) => (
-        <GoalField key={argument.name} argument={argument} call={call} />
+        <GoalField key={argument.name} argument={argument} call={call} suggested={suggested} />
       ))}
       {check?.error && !isBare && (
         <pre className={css.error} role="alert">
@@ -70,7 +75,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
       </Field>
       {mine && <Outcome job={mine} />}
       <div className={[review.row, css.ending].join(" ")}>
-        <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => check && void tryGoal(check.text)}>
+        <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => void doWith(tryGoal).catch(reportError)}>
           Try it
         </Button>
         <Button type="submit" look="primary" icon={Check} disabled={!ready || !(name ?? proposal).trim()}>
@@ -100,22 +105,28 @@ function callOf({ name, arguments: [first] }: Operator, { arguments: given }: Go
   return { name, arguments: first && about ? { [first.name]: about } : {} };
 }
 
-/** What a form comes to, a moment after the last key; null until that is known. */
+/** What a form comes to, a moment after the last key; what it came to before stays until then. */
 function useCheck(call: GoalCall): GoalView | null {
-  const [got, setGot] = useState<{ call: GoalCall; check: GoalView } | null>(null);
+  const [check, setCheck] = useState<GoalView | null>(null);
   useEffect(() => {
     const stop = new AbortController();
-    const ask = () => api.checkGoal(call, stop.signal).then((check) => setGot({ call, check }), (error: unknown) => stop.signal.aborted || reportError(error));
+    const ask = () => api.checkGoal(call, stop.signal).then(setCheck, (error: unknown) => stop.signal.aborted || reportError(error));
     const timer = setTimeout(() => void ask(), 120);
     return () => {
       clearTimeout(timer);
       stop.abort();
     };
   }, [call]);
-  return got?.call === call ? got.check : null;
+  return check;
 }
 
-function GoalField({ argument: { name, kind, title, wants, choices, words, omitted, required }, call }: { argument: Argument; call: GoalCall }) {
+interface GoalFieldProps {
+  argument: Argument;
+  call: GoalCall;
+  suggested: Suggested | null;
+}
+
+function GoalField({ argument: { name, kind, title, wants, choices, words, omitted, required }, call, suggested }: GoalFieldProps) {
   const value = call.arguments[name] ?? "";
   const set = (text: string) => changeGoal({ call: { ...call, arguments: { ...call.arguments, [name]: text } } });
   if (kind === "words") {
@@ -138,22 +149,36 @@ function GoalField({ argument: { name, kind, title, wants, choices, words, omitt
         <input className={[review.field, review.code].join(" ")} aria-label={title} title={wants} placeholder={omitted || (required ? "Is(label)" : "")} value={value} spellCheck={false} onChange={(event) => set(event.target.value)} />
         {kind === "text" && <small className={review.dim}>{wants}</small>}
       </div>
-      {kind === "extractor" && <Suggestions value={value} onPick={set} always={required} />}
+      {kind === "extractor" && (required || suggested) && <Suggestions value={value} onPick={set} always={required} suggested={suggested} />}
     </Field>
   );
 }
 
-/** Extractors for the hulls that are selected in the view; always: says how to get some. */
-function Suggestions({ value, onPick, always }: { value: string; onPick: (text: string) => void; always: boolean }) {
+type Suggested = Readonly<{ asset: string; rows: readonly ExtractorSuggestion[] }>;
+
+/** Extractors for the hulls that are selected in the view; null where there are none. */
+function useSuggestions(): Suggested | null {
   const asset = useWorkspace((state) => (state.showing.kind === "source" ? state.asset : null));
   const selection = useWorkspace((state) => state.selection);
   const fetch = useCallback(() => (asset !== null && selection.size ? api.extractorsFor(asset, [...selection]) : Promise.resolve([])), [asset, selection]);
   const found = useFetched(fetch);
-  if (!selection.size) return always && !value ? <small className={review.dim}>Select hulls in the view, or type which.</small> : null;
-  if (!Array.isArray(found) || asset === null) return null;
+  return asset !== null && selection.size > 0 && Array.isArray(found) ? { asset, rows: found } : null;
+}
+
+interface SuggestionsProps {
+  value: string;
+  onPick: (text: string) => void;
+  /** Whether they show while the field does not have the focus, too. */
+  always: boolean;
+  suggested: Suggested | null;
+}
+
+function Suggestions({ value, onPick, always, suggested }: SuggestionsProps) {
+  if (!suggested) return value ? null : <small className={review.dim}>Select hulls in the view, or type which.</small>;
+  const { asset, rows } = suggested;
   return (
     <div className={css.suggestions} data-always={always} role="group" aria-label="For the selected hulls" onPointerDown={(event) => event.preventDefault()}>
-      {found.map(({ text, sentence, places }) => (
+      {rows.map(({ text, sentence, places }) => (
         <button key={text} type="button" title={sentence} aria-pressed={text === value} onClick={() => onPick(text)} {...whilePointed(() => setHighlight({ what: text, assets: { [asset]: places } }), () => setHighlight(null))}>
           <code className={review.code}>{text}</code>
           <span>{countText(places.length, "hull")} here</span>

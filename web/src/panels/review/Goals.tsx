@@ -16,6 +16,7 @@ import review from "./review.module.css";
 export function Goals({ onOpen }: { onOpen: () => void }) {
   const goals = useProject((state) => state.project.goals);
   const draft = useGoalDraft((state) => state.draft);
+  const isChange = goals.some(({ name }) => name === draft?.was); // else it is new, or was removed meanwhile
   return (
     <Section title="What assets must do" aside={goals.length > 0 && `${goals.length}`}>
       {!goals.length && !draft && (
@@ -30,7 +31,7 @@ export function Goals({ onOpen }: { onOpen: () => void }) {
         ))}
       </ul>
       {draft ? (
-        draft.was === null && <GoalForm draft={draft} />
+        !isChange && <GoalForm draft={draft} />
       ) : (
         <Button icon={Plus} look={goals.length ? "plain" : "primary"} onClick={() => startGoal()}>
           New goal
