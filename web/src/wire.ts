@@ -760,6 +760,8 @@ export interface GoalResultView {
   hulls: string[];
   before: ("passed" | "failed" | "untried" | "broken") | null;
   accepted: boolean;
+  fails: boolean;
+  is_open: boolean;
   picture: string | null;
 }
 /**

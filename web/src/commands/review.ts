@@ -1,7 +1,6 @@
 // What a person does with results: apply, accept, call wrong, exclude, correct, export, and go to the next that wants a look.
 import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
-import { failsGoal } from "../store/goals";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
 import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
@@ -30,7 +29,7 @@ const goalsOf = (asset: string, which: (goal: GoalResultView) => boolean): strin
 
 /** Accepts a result though goals fail on it. */
 export const acceptGoals = (asset: string): Promise<boolean> =>
-  perform({ kind: "review", ids: [asset], verdict: "accepted", goals: goalsOf(asset, (goal) => goal.accepted || failsGoal(goal)) });
+  perform({ kind: "review", ids: [asset], verdict: "accepted", goals: goalsOf(asset, (goal) => goal.accepted || goal.fails) });
 
 export const callWrong = (asset: string, note: string | null): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: "wrong", note });

@@ -5,7 +5,7 @@ import { countGoal, freeName, goalText, openGoals } from "./goals";
 import { countExportable, groupOf, listAcceptable } from "./reviews";
 import { sampleAssessment, sampleCard, sampleRow } from "./sample.test-help";
 
-const goal = (outcome: GoalResultView["outcome"], accepted = false): GoalResultView => ({ name: "grip", goal: "graspable(Is(handle))", outcome, why: outcome === "failed" ? "no grip" : "", hulls: [], before: null, accepted, picture: null });
+const goal = (outcome: GoalResultView["outcome"], accepted = false): GoalResultView => ({ name: "grip", goal: "graspable(Is(handle))", outcome, why: outcome === "failed" ? "no grip" : "", hulls: [], before: null, accepted, fails: outcome === "failed" && !accepted, is_open: outcome === null || (outcome === "failed" && !accepted), picture: null });
 const card = (asset: string, one: GoalResultView, excluded: "not solved" | null = null) => sampleCard({ asset, output: "edited", goals: [one], excluded });
 
 const family = [card("a", goal("passed")), card("b", goal("failed")), card("c", goal("failed", true)), card("d", goal(null)), card("e", goal("untried")), card("f", goal("failed"), "not solved")];

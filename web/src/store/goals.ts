@@ -4,18 +4,15 @@ import type { Card, GoalCall, GoalResultView, GoalView } from "../wire";
 import { type ProjectState, useProject } from "./project";
 import { countText } from "./words";
 
-/** Whether a goal failed or broke, and nobody accepted that. */
-export const failsGoal = ({ outcome, accepted }: GoalResultView): boolean => (outcome === "failed" || outcome === "broken") && !accepted;
-
 /** Goals that fail on a result, of those in a list of texts if there is one. */
 export const failingGoals = (card: Card | undefined, texts?: readonly string[]): readonly GoalResultView[] =>
-  card?.excluded ? [] : (card?.goals.filter((goal) => failsGoal(goal) && (texts?.includes(goal.goal) ?? true)) ?? []);
+  card?.excluded ? [] : (card?.goals.filter((goal) => goal.fails && (texts?.includes(goal.goal) ?? true)) ?? []);
 
 /** What stands out of a result: its flags, and goals that fail on it. */
 export const flagsOf = (card: Card): readonly string[] => [...card.flags, ...failingGoals(card).map((goal) => `goal ${goal.name} ${goalText(goal)}`)];
 
 /** Whether a goal of an asset fails or was not tried. */
-export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.outcome === null || failsGoal(goal));
+export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.is_open);
 
 /** `goals fail on 1 result, were not tried on 2`; null where all that apply hold, or are accepted. */
 export function openGoals(state: Pick<ProjectState, "cards">): string | null {
@@ -34,7 +31,7 @@ export function countGoal(cards: readonly Card[], name: string) {
     const goal = card.goals.find((one) => one.name === name);
     if (card.excluded) continue;
     if (!goal || goal.outcome === null) counts.untried++;
-    else if (failsGoal(goal)) fails.push(card.asset);
+    else if (goal.fails) fails.push(card.asset);
     else counts[goal.outcome === "untried" ? "away" : goal.accepted ? "accepted" : "holds"]++;
   }
   return { ...counts, fails };

@@ -3,7 +3,7 @@ hulls that a person selects."""
 
 import re
 from collections.abc import Collection
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any, cast
 
 from meshforge.checks.goals.base import Goal
@@ -105,13 +105,15 @@ def suggest_extractors(
     labels, and what rules of a program select. Raises DemonstrationError for hulls that there are not."""
     limits, frame = project.settings.thresholds, project.orientation
     demo = Demonstration(mesh, (Step(1, frozenset(select), Delete()),), asset)
-    found = synthesize([demo], orient=frame, vocabulary=project.words, options=_SEARCH)
-    labels = {hull.label: Is(hull.label) for hull in mesh.hulls if hull.name in select and hull.label}
+    options = replace(_SEARCH, contact=limits.contact, extremity=limits.extremity)
+    found = synthesize([demo], orient=frame, vocabulary=project.words, options=options)
+    given = {hull.label for hull in mesh.hulls if hull.name in select}
+    labels = [Is(word) for word in project.words if word in given]
     rules = [rule.extractor for rule in program.rules] if program else []
     exact = [one.extractor for one in found.candidates[:2]]
     start = begin_replay(asset, demo, frame, limits.contact).mesh
     wanted, rows = mask_of(start.index[name] for name in select), dict[str, wire.ExtractorSuggestion]()
-    for one in sorted([*labels.values(), *rules, *exact], key=size_of):
+    for one in sorted([*labels, *rules, *exact], key=size_of):
         mask = select_mask(one, start, limits.extremity or EXTREMITY)
         if mask & wanted == wanted:
             places = tuple(sorted(bits_of(mask)))

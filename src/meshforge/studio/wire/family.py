@@ -32,12 +32,9 @@ class GoalResultView(Wire):
     hulls: tuple[str, ...] = ()
     before: GoalOutcome | None = None
     accepted: bool = False
+    fails: bool = False
+    is_open: bool = False
     picture: Annotated[str | None, BeforeValidator(lambda path: path and picture_key(path))] = None
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it was not tried, or fails and nobody accepted that."""
-        return self.outcome is None or (self.outcome in ("failed", "broken") and not self.accepted)
 
 
 def picture_key(path: Path) -> str:

@@ -3,7 +3,7 @@ import { Check, CircleAlert, CircleCheck } from "lucide-react";
 import { acceptGoals } from "../../commands/review";
 import { api } from "../../server/api";
 import { selectInOutput } from "../../store/checks";
-import { failsGoal, goalText } from "../../store/goals";
+import { goalText } from "../../store/goals";
 import { useProject } from "../../store/project";
 import { isUpToDate } from "../../store/reviews";
 import { countText } from "../../store/words";
@@ -20,7 +20,7 @@ export function GoalsOfAsset({ asset }: { asset: string }) {
   if (!card?.goals.length || card.output === "none") return null;
   const fail = card.goals.filter(({ outcome }) => outcome === "failed" || outcome === "broken");
   const others = card.goals.filter((goal) => !fail.includes(goal));
-  const open = fail.filter(failsGoal).length;
+  const open = fail.filter((goal) => goal.fails).length;
   return (
     <Section title="Goals" aside={open > 0 && <span className={review.bad}>✗ {open === 1 ? "one fails" : `${open} fail`}</span>}>
       <GoalFailures asset={asset} goals={fail} />
@@ -63,7 +63,7 @@ function GoalFailures({ asset, goals }: { asset: string; goals: readonly GoalRes
       </>
     );
     return (
-      <div key={goal.name} className={css.failure} data-open={failsGoal(goal)}>
+      <div key={goal.name} className={css.failure} data-open={goal.fails}>
         <GoalPicture asset={asset} goal={goal} />
         {goal.hulls.length ? (
           <button type="button" className={review.finding} title={`Select ${countText(goal.hulls.length, "hull")} at fault`} onClick={() => selectInOutput(asset, goal.hulls)}>

@@ -133,7 +133,7 @@ function GoalField({ argument: { name, kind, title, wants, choices, words, omitt
     return (
       <Field name={title} inline>
         <select className={review.field} aria-label={title} value={value} onChange={(event) => set(event.target.value)}>
-          <option value="">{words[omitted] ?? omitted}</option>
+          <option value="">{words[omitted] ?? (omitted || "none")}</option>
           {choices.map((word) => (
             <option key={word} value={word}>
               {words[word] ?? word}
@@ -174,7 +174,7 @@ interface SuggestionsProps {
 }
 
 function Suggestions({ value, onPick, always, suggested }: SuggestionsProps) {
-  if (!suggested) return value ? null : <small className={review.dim}>Select hulls in the view, or type which.</small>;
+  if (!suggested?.rows.length) return value ? null : <small className={review.dim}>{suggested ? "No extractor was found for these hulls: type one." : "Select hulls in the view, or type which."}</small>;
   const { asset, rows } = suggested;
   return (
     <div className={css.suggestions} data-always={always} role="group" aria-label="For the selected hulls" onPointerDown={(event) => event.preventDefault()}>

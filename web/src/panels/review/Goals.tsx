@@ -7,7 +7,7 @@ import { applyTo, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { visit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
-import { Note, Section } from "../../ui/Section";
+import { Section } from "../../ui/Section";
 import type { GoalView } from "../../wire";
 import { GoalForm } from "./GoalForm";
 import css from "./goals.module.css";
@@ -52,7 +52,7 @@ function Goal({ goal, onOpen }: { goal: GoalView; onOpen: () => void }) {
           <IconButton icon={Trash2} name={`Remove ${name}`} onClick={() => void perform({ kind: "goal", name, text: null })} />
         </span>
       </header>
-      {error ? <Note mood="bad">{error}</Note> : <p>{sentence}</p>}
+      {error ? <pre className={css.error}>{error}</pre> : <p>{sentence}</p>}
       <code className={review.code}>{text}</code>
       {!error && <Counts name={name} onOpen={onOpen} />}
     </section>
