@@ -103,6 +103,7 @@ def test_what_fails_has_a_picture_and_stays_open_until_it_is_accepted(tmp_path: 
         assert not _goal(cards[FIRST])["accepted"]
         studio.edit("review", ids=[FIRST], verdict="accepted", goals=[FAILS])
         studio.cards(lambda cards: _goal(cards[FIRST])["accepted"])
+        assert _run(studio, kind="apply")["message"].endswith("Goals fail on 3 results.")
         studio.edit("goal", name="grip", text=KEPT, was="grip")
         studio.cards(lambda cards: all(_goal(card)["outcome"] is None for card in cards.values()))
         _run(studio, kind="apply")

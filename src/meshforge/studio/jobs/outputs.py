@@ -60,16 +60,19 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
                 summary.add(outcome)
                 progress.add_line(_apply_line(outcome, notes))
                 session.note_output(outcome.asset)
+        fails = 0
         if goals := project.read_goals():
             with progress.stage(len(jobs), "trying goals") as advance:
                 run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=advance)
                 for one in project.try_goals(goals, only=[job.id for job in jobs], execution=run):
+                    fails += any(result.outcome in ("failed", "broken") for result in one.after.values())
                     session.refresh_queue.add([one.asset])
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
         text = ", ".join(f"{number} {word}" for word, number in summary.counts.items())
-        remarks = (remark for remark in (unclear, describe_new(list(new.values()))) if remark)
+        of_goals = f"goals fail on {pluralize(fails, 'result')}" if fails else None
+        remarks = (remark for remark in (unclear, describe_new(list(new.values())), of_goals) if remark)
         sentences = (f"{remark[0].upper()}{remark[1:]}." for remark in remarks)
         return " ".join([f"{pluralize(len(assets), 'asset')}: {text or 'none'}.", *sentences])
 

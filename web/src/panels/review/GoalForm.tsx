@@ -28,7 +28,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
   const suggested = useSuggestions();
   const proposal = freeName(check?.name || call.name, goals, was);
   const job = useJob("goal");
-  const mine = job && check && job.title === `Trying ${check.text}` ? job : null;
+  const mine = job && (job.state === "running" || job.title === `Trying ${check?.text}`) ? job : null;
   const isBare = form?.arguments.some((one) => one.required && !call.arguments[one.name]); // nothing to complain of yet
   const ready = !isBare && !check?.error;
   useEffect(showSource, []);

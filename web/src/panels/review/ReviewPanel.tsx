@@ -2,6 +2,7 @@
 import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
 import { SignOff } from "../../family/Sureness";
+import { openGoals } from "../../store/goals";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
 import { useProject } from "../../store/project";
@@ -82,9 +83,10 @@ function NewAssets() {
 
 /** How the last run ended, and what was done to new assets before it. */
 function Outcome({ job }: { job: Job }) {
+  const goals = useProject((state) => job.state === "done" && openGoals(state) !== null);
   return (
     <>
-      <JobNote job={job} />
+      <JobNote job={job} doubtful={goals} />
       <JobLines lines={linesOfNew(job)} />
     </>
   );
