@@ -13,7 +13,7 @@ __getattr__, __all__ = export_lazily(
         "discovery": "ADDED OWN_FOLDERS SETTINGS STATE AssetSet asset_id expand find_assets_in",
         "edit": "apply",
         "execution": "execute",
-        "goals": "GOAL_EXECUTION AssetGoals GoalTask find_goal_picture recall_goals try_goals",
+        "goals": "GOAL_EXECUTION AssetGoals GoalTask recall_goals try_goals",
         "jobs": (
             "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
             "describe_jobs read_template template_folders"

@@ -24,7 +24,6 @@ from meshforge.batch.execution import execute as execute
 from meshforge.batch.goals import GOAL_EXECUTION as GOAL_EXECUTION
 from meshforge.batch.goals import AssetGoals as AssetGoals
 from meshforge.batch.goals import GoalTask as GoalTask
-from meshforge.batch.goals import find_goal_picture as find_goal_picture
 from meshforge.batch.goals import recall_goals as recall_goals
 from meshforge.batch.goals import try_goals as try_goals
 from meshforge.batch.jobs import APPLY_DEFAULTS as APPLY_DEFAULTS

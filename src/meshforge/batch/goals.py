@@ -142,13 +142,6 @@ def _locate_kept(out: Path, asset: str) -> Path:
     return out / STATE / "goals" / f"{asset}.json"
 
 
-def find_goal_picture(out: Path, asset: str, key: str) -> Path | None:
-    """Return the picture of a failure on an asset, if there is one; key: the word before `.png` in its name."""
-    path = _locate_picture(_locate_kept(out, asset), key)
-    is_ours = path.resolve().is_relative_to((out / STATE / "goals").resolve())
-    return path if is_ours and path.is_file() else None
-
-
 def _locate_picture(kept: Path, key: str) -> Path:
     return kept.with_name(f"{kept.stem}.{key[:12]}.png")
 

@@ -12,7 +12,7 @@ from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import FileResponse
 from starlette.concurrency import run_in_threadpool
 
-from meshforge.batch import ADDED, find_goal_picture
+from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.rendering import LengthUnit
@@ -157,8 +157,9 @@ def suggest_extractors(
 def get_goal_picture(session: CurrentSession, asset: str, v: str) -> Response:
     """Return the picture of a failure; v: its key."""
     session.check_assets(asset)
-    path = find_goal_picture(session.project.layout.edited, asset, v) if v.isalnum() and v.isascii() else None
-    if path is None:
+    kept = session.project.layout.goals(asset)
+    path = kept.with_name(f"{kept.stem}.{v}.png")
+    if not (v.isalnum() and v.isascii() and path.is_file()):
         raise NotHereError("there is no such picture", where=asset)
     return Response(path.read_bytes(), media_type="image/png", headers=_CACHE_FOREVER)
 
