@@ -158,7 +158,7 @@ def get_goal_picture(session: CurrentSession, asset: str, v: str) -> Response:
     """Return the picture of a failure; v: its key."""
     session.check_assets(asset)
     kept = session.project.layout.goals(asset)
-    path = kept.with_name(f"{kept.stem}.{v}.png")
+    path = kept.parent / f"{kept.stem}.{v}.png"
     if not (v.isalnum() and v.isascii() and path.is_file()):
         raise NotHereError("there is no such picture", where=asset)
     return Response(path.read_bytes(), media_type="image/png", headers=_CACHE_FOREVER)
