@@ -53,6 +53,8 @@ PASSING: dict[str, Callable[[Hand], None]] = {
     "gallery": _press("q"),
     "review": _press("q", "Alt+4"),
     "all results": _choose("All results"),
+    "goals": _choose("Goals"),
+    "a new goal": lambda person: person.click("New goal"),
     "export": _choose("Export"),
     "commands": _press("Control+k"),
     "menu of the asset": _open_menu,

@@ -12,6 +12,7 @@ export type AnyEdit =
   | ReplyToQuestion
   | AnswerForRule
   | TakeBack
+  | SetGoal
   | WriteProgram
   | CutHull
   | Unprepare
@@ -71,6 +72,7 @@ export interface Everything {
   Event: Event;
   ExcludeAssets: ExcludeAssets;
   ExportJob: ExportJob;
+  ExtractorSuggestion: ExtractorSuggestion;
   FamilyOffer: FamilyOffer;
   Fault: Fault;
   Figure: Figure;
@@ -78,6 +80,9 @@ export interface Everything {
   FolderEntry: FolderEntry;
   FolderView: FolderView;
   ForecastJob: ForecastJob;
+  GoalCall: GoalCall;
+  GoalResultView: GoalResultView;
+  GoalView: GoalView;
   Guess: Guess;
   Hello: Hello;
   Hint: Hint;
@@ -136,6 +141,7 @@ export interface Everything {
   RuleView: RuleView;
   SelectRequest: SelectRequest;
   SelectionView: SelectionView;
+  SetGoal: SetGoal;
   SetLandmarks: SetLandmarks;
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
@@ -356,7 +362,7 @@ export interface ReplyToQuestion {
 }
 /**
  * A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
- * those in question.
+ * those in question; goals: texts of those that fail on a result.
  */
 export interface ReviewQuestionView {
   id: string;
@@ -368,6 +374,7 @@ export interface ReviewQuestionView {
   rule: number | null;
   hulls: HullRef[];
   choices: ReviewChoiceView[];
+  goals: string[];
 }
 /**
  * A hull of an asset. place: its position among the asset's own hulls.
@@ -403,6 +410,15 @@ export interface HullLabel {
 export interface TakeBack {
   kind: "take-back";
   id: string;
+}
+/**
+ * Keep a goal under a name; null takes it away. was: the name that it had before, null for a new one.
+ */
+export interface SetGoal {
+  kind: "goal";
+  name: string;
+  text: string | null;
+  was?: string | null;
 }
 /**
  * Make a text the project's program. version: of the program that was changed.
@@ -441,7 +457,7 @@ export interface Unprepare {
  * Accept the results of some assets, or call them wrong; null takes that back.
  *
  * selections, labels: where the result of one asset is wrong, the hulls that rules should have selected, and labels
- * that hulls should have.
+ * that hulls should have; goals: texts of those that fail on an accepted result, and do not count there.
  */
 export interface ReviewAssets {
   kind: "review";
@@ -454,6 +470,7 @@ export interface ReviewAssets {
   labels?: {
     [k: string]: string;
   };
+  goals?: string[];
 }
 /**
  * Give some assets up, with the reason; null includes them again.
@@ -681,7 +698,7 @@ export interface CandidateView {
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
- * where it was not checked.
+ * where it was not checked; goals: what is known of those of the project on the result.
  */
 export interface Card {
   asset: string;
@@ -705,6 +722,7 @@ export interface Card {
   edited_picture: string | null;
   check: string | null;
   faults: Fault[] | null;
+  goals: GoalResultView[];
 }
 /**
  * A rule of a check that does not hold. engine: whose limit it is, or null; new: whether the edit caused it.
@@ -714,6 +732,21 @@ export interface Fault {
   severity: "error" | "warning";
   engine: string | null;
   new: boolean;
+}
+/**
+ * What is known of a goal on the result of an asset, as in `GoalStatus`; picture: the key of that of a failure.
+ */
+export interface GoalResultView {
+  name: string;
+  goal: string;
+  outcome: ("passed" | "failed" | "untried" | "broken") | null;
+  why: string;
+  hulls: string[];
+  before: ("passed" | "failed" | "untried" | "broken") | null;
+  accepted: boolean;
+  fails: boolean;
+  is_open: boolean;
+  picture: string | null;
 }
 /**
  * New and changed cards; gone: ids of assets that no longer exist.
@@ -736,10 +769,11 @@ export interface CheckFinding {
   remedy: string;
 }
 /**
- * Run all checks on the outputs of all assets.
+ * Run all checks on the outputs of all assets, or try a goal on them that is not kept.
  */
 export interface CheckJob {
   kind: "check";
+  goal?: string | null;
 }
 /**
  * A picture. name: the one that its address takes; text: what it shows.
@@ -921,6 +955,7 @@ export interface ProjectView {
   rules: RuleLine[];
   answers: AnswerView[];
   templates: string[];
+  goals: GoalView[];
   propagation: PropagationState | null;
   next: NextStep;
   new: NewAssetsView | null;
@@ -955,6 +990,26 @@ export interface RuleLine {
   action: ActionView;
   shown: string[];
   nothing: string[];
+}
+/**
+ * A goal of the project, or what a form comes to, with a proposal for its name. sentence: it in words; call: as a
+ * form has it, null where it is none; error: why, where in the text, and what helps.
+ */
+export interface GoalView {
+  name: string;
+  text: string;
+  sentence: string;
+  call: GoalCall | null;
+  error: string | null;
+}
+/**
+ * A goal as a form has it. name: the word that begins it; arguments: texts, those that are left out missing.
+ */
+export interface GoalCall {
+  name: string;
+  arguments: {
+    [k: string]: string;
+  };
 }
 /**
  * The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
@@ -1030,15 +1085,17 @@ export interface RuleView {
   sentence: string;
 }
 /**
- * The language: actions (without Each, a switch in the page), operators, directions.
+ * The language: actions (without Each, a switch in the page), operators, directions; goals.
  */
 export interface LanguageView {
   actions: ActionForm[];
   operators: Operator[];
   directions: string[];
+  goals: Operator[];
 }
 /**
- * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
+ * An extractor's operator and its operands, for completion, or a goal and its arguments: `words`, an `extractor` or
+ * a `text`, with their defaults as `omitted`; base: whether it is a base extractor.
  */
 export interface Operator {
   name: string;
@@ -1108,7 +1165,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check";
+  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "goal";
   title: string;
   done: number;
   total: number;
@@ -1119,13 +1176,15 @@ export interface Job {
   out: string | null;
 }
 /**
- * What became of one asset in a job. before: what was done to a new asset before the program, in sentences.
+ * What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
+ * picture: the key of that of a goal that fails.
  */
 export interface JobLine {
   asset: string;
   status: "done" | "edited" | "unchanged" | "failed" | "skipped";
   text: string;
   before: string[];
+  picture: string | null;
 }
 /**
  * The project as it is now.
@@ -1179,6 +1238,14 @@ export interface ExportJob {
   kind: "export";
   signed_only?: boolean;
   folder?: string;
+}
+/**
+ * An extractor that selects what a person selected on an asset, or more. places: positions of what it selects.
+ */
+export interface ExtractorSuggestion {
+  text: string;
+  sentence: string;
+  places: number[];
 }
 /**
  * A folder in another. project: whether it is a project.

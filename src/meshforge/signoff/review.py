@@ -252,7 +252,8 @@ def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestio
             text = (
                 f"On {name} {join_names([one.describe() for one in failing])}.{often} Is the result right all the same?"
             )
-            yield _ask_result(run, max(gain, _GOAL_GAIN), seconds, text, goals=[one.goal for one in failing])
+            own = [one.goal for one in found.assets[name].goals if one.fails or one.accepted]  # a reply is about all
+            yield _ask_result(run, max(gain, _GOAL_GAIN), seconds, text, goals=own)
         else:
             yield _ask_result(run, gain, seconds)
 

@@ -135,6 +135,7 @@ class Layout:
     # What can be made again
 
     stamps = AssetFile(f"edited/{STATE}/stamps/{{asset}}.json", _effects("card"), words=True, learned=True)
+    goals = AssetFile(f"edited/{STATE}/goals/{{asset}}.json", _effects("card"))
     assessment = OneFile(f"{STATE}/assessment.json")
     review_pictures = OneFile(f"{STATE}/review/")
     asset_index = OneFile(f"{STATE}/survey.json")

@@ -185,6 +185,21 @@ def test_a_reply_to_a_goal_that_fails_is_done(
     assert standing(run).get(asset[:6], (None,))[0] == state
 
 
+def test_a_reply_is_about_all_goals_that_fail_so_that_none_is_asked_about_again(run: Run, signed_off: Project) -> None:
+    run("apply", "tables")
+    asset = ask(run)["asset"]
+    answer(run, signed_off, choice="right")
+    signed_off.set_goal("pinch", "graspable(Is(top), width = 0.002)")
+    run("apply", "tables")
+    while (question := ask(run))["asset"] != asset:
+        answer(run, signed_off, choice="right")
+    assert question["goals"] == [THICK, "graspable(Is(top), width = 0.002)"] and THICK not in question["text"]
+    answer(run, signed_off, choice="right")
+    rows = json.loads(run("status", "tables", "--json").out)["assets"]
+    (row,) = [row for row in rows if row["asset"] == asset]
+    assert [goal["accepted"] for goal in row["goals"]] == [True, True]
+
+
 def test_goals_that_hold_leave_sign_offs_as_they_are(run: Run, signed_off: Project) -> None:
     before = standing(run)
     signed_off.set_goal("grip", CARRIES)

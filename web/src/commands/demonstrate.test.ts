@@ -21,7 +21,7 @@ function show(shown: readonly (string[] | null)[], rules = shown.length): void {
   const hulls = ["x", "y"].map((name) => ({ name }));
   useScenes.setState({ scene: { asset: "a", hulls, view: { asset: "a", hulls, steps: shown.map(step) } } as never });
   const lines = Array.from({ length: rules }, (_, k) => ({ rule: k + 1, action: sampleAction(), shown: [], nothing: [] }));
-  useProject.setState({ ...emptyProject, language: { actions, operators: [], directions: [] }, project: { ...emptyProject.project, rules: lines } }, true);
+  useProject.setState({ ...emptyProject, language: { actions, operators: [], directions: [], goals: [] }, project: { ...emptyProject.project, rules: lines } }, true);
 }
 
 beforeEach(() => {

@@ -33,10 +33,11 @@ const command = (id: string) => reviewCommands.find((one) => one.id === id);
 
 describe("accepting", () => {
   it("goes on to the next that wants a look", async () => {
-    family(card("a"), card("b", { review: "accepted" }), card("c"));
+    const goals = ["old", "new"].map((goal) => ({ name: goal, goal, outcome: "failed" as const, why: "", hulls: [], before: null, accepted: goal === "old", fails: goal === "new", is_open: goal === "new", picture: null }));
+    family(card("a", { goals }), card("b", { review: "accepted" }), card("c"));
     useWorkspace.setState({ asset: "a" });
     await accept("a");
-    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted" }]);
+    expect(edits).toEqual([{ kind: "review", ids: ["a"], verdict: "accepted", goals: ["old"] }]); // never a failure in silence
     expect(useWorkspace.getState().asset).toBe("c");
   });
 

@@ -6,7 +6,7 @@ import { useProject } from "../store/project";
 import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
 import { notify, reportError } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
-import type { Card } from "../wire";
+import type { Card, GoalResultView } from "../wire";
 import { commandsOf } from "./command";
 import { runInTurn } from "./queue";
 
@@ -19,9 +19,17 @@ function cardsInOrder(): Card[] {
 /** Accepts an output and goes on to the next that wants a look. */
 export async function accept(asset: string): Promise<void> {
   const next = nextOf(asset);
-  const done = await perform({ kind: "review", ids: [asset], verdict: "accepted" });
+  const done = await perform({ kind: "review", ids: [asset], verdict: "accepted", goals: goalsOf(asset, (goal) => goal.accepted) });
   if (done && next && useWorkspace.getState().asset === asset) openAsset(next);
 }
+
+/** Texts of some goals of an asset. */
+const goalsOf = (asset: string, which: (goal: GoalResultView) => boolean): string[] =>
+  useProject.getState().cards[asset]?.goals.filter(which).map(({ goal }) => goal) ?? [];
+
+/** Accepts a result though goals fail on it. */
+export const acceptGoals = (asset: string): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "accepted", goals: goalsOf(asset, (goal) => goal.accepted || goal.fails) });
 
 export const callWrong = (asset: string, note: string | null): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: "wrong", note });

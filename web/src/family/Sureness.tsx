@@ -3,6 +3,7 @@ import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide
 import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
 import { barText, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
+import { openGoals } from "../store/goals";
 import { useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
@@ -27,10 +28,11 @@ export function SignOff() {
 
 function Known({ assessment }: { assessment: AssessmentView }) {
   const { threshold: bar, excluded } = assessment;
-  const mood = moodOf(assessment);
+  const goals = useProject(openGoals);
+  const mood = moodOf(assessment, goals);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
-  const more = [`at least ${barText(bar)} sure, or accepted by you`, excluded > 0 && `${excluded.toLocaleString("en-GB")} excluded`, unseenText(assessment)];
+  const more = [`at least ${barText(bar)} sure, or accepted by you`, excluded > 0 && `${excluded.toLocaleString("en-GB")} excluded`, unseenText(assessment), goals];
   return (
     <>
       <div className={css.line} data-mood={mood} role="status">
@@ -91,11 +93,12 @@ function HeldReasons({ assessment }: { assessment: AssessmentView }) {
 export function Doubts({ asset }: { asset: string }) {
   const bar = useProject((state) => state.assessment?.threshold ?? null);
   const row = useProject((state) => state.confidence[asset]);
-  if (!row || bar === null || (!row.reasons.length && row.state !== "needs review")) return null;
+  const reasons = row?.reasons.filter(({ kind }) => kind !== "goal") ?? []; // which stand with their pictures
+  if (!row || bar === null || (!reasons.length && row.state !== "needs review")) return null;
   return (
     <Section title={`Why ${shortName(asset)} may be wrong`} aside={<span data-state={row.state} className={css.sure}>{percentText(row.probability, bar)} sure</span>}>
       <ul className={css.doubts}>
-        {row.reasons.map((doubt) => (
+        {reasons.map((doubt) => (
           <DoubtRow key={doubt.text} asset={asset} doubt={doubt} />
         ))}
       </ul>

@@ -25,6 +25,7 @@ const card: Card = {
   edited_picture: null,
   check: null,
   faults: null,
+  goals: [],
 };
 
 test("every way an asset stands has a badge of its own", () => {

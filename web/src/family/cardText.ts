@@ -1,5 +1,6 @@
 // Words on cards: names that fit, and what a screen reader says.
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
+import { flagsOf } from "../store/goals";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
 import type { FilterName } from "../store/workspace";
 import type { Card } from "../wire";
@@ -19,11 +20,11 @@ export interface Badge {
 export function badgesOf(card: Card, engine = ""): readonly Badge[] {
   const { output, review, manual_edits: corrections, stale } = card;
   const [bare, unsure] = [unlabelled(card), countUnsure(card)];
-  const faults = faultsOf(card, engine);
+  const [faults, flags] = [faultsOf(card, engine), flagsOf(card)];
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
     review === "wrong" && { name: "wrong", text: ["Wrong", card.note].filter(Boolean).join(": ") },
-    card.flags.length > 0 && { name: "flagged", text: `Flagged: ${card.flags.join("; ")}` },
+    flags.length > 0 && { name: "flagged", text: `Flagged: ${flags.join("; ")}` },
     review === "accepted" && { name: "accepted", text: "Accepted" },
     matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },

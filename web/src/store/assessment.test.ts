@@ -13,7 +13,7 @@ describe("how sure the family is", () => {
     expect(told(2, 1)).toEqual(["Signed off 1 of 2", "1 is less than 95% sure: look at this one."]);
     expect(told(5, 0)).toEqual(["Signed off 5 of 5", null]);
     expect(told(5, 1, { signed_off: 2, excluded: 2 })[1]).toBe("1 is less than 95% sure: look at this one; 2 are excluded.");
-    expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
+    expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map((one) => moodOf(one))).toEqual(["warn", "good"]);
   });
 
   it("is told with the bar as it was set", () => {

@@ -59,19 +59,21 @@ export function unseenText({ unseen }: Pick<AssessmentView, "unseen">): string |
   return unseen ? `${unseen.toLocaleString("en-GB")} ${unseen === 1 ? "was" : "were"} not looked at` : null;
 }
 
-/** What of the family is not signed off, as a sentence; null where all is. */
-export function leftText(assessment: AssessmentView): string | null {
+/** What of the family is not signed off, as a sentence; null where all is. goals: which are open, in words. */
+export function leftText(assessment: AssessmentView, goals: string | null = null): string | null {
   const { need_review: held, excluded, threshold: bar } = assessment;
   const parts = [
     held > 0 && `${held.toLocaleString("en-GB")} ${held === 1 ? "is" : "are"} less than ${barText(bar)} sure: ${lookText(assessment)}`,
     excluded > 0 && `${excluded.toLocaleString("en-GB")} ${excluded === 1 ? "is" : "are"} excluded`,
     unseenText(assessment),
+    goals,
   ].filter(Boolean);
   return parts.length ? `${parts.join("; ")}.` : null;
 }
 
-/** Good only where nothing needs review, and all were looked at. */
-export const moodOf = ({ need_review: held, unseen }: Pick<AssessmentView, "need_review" | "unseen">): "good" | "warn" => (held || unseen ? "warn" : "good");
+/** Good only where nothing needs review, all were looked at, and no goal is open; goals: which are, in words. */
+export const moodOf = ({ need_review: held, unseen }: Pick<AssessmentView, "need_review" | "unseen">, goals: string | null = null): "good" | "warn" =>
+  held || unseen || goals ? "warn" : "good";
 
 /** What a card says of an asset: a percentage, `…` while it is not known, null where there is no program. */
 export function probabilityText(state: Sureness, asset: string): string | null {

@@ -47,7 +47,7 @@ function given(steps: StepView[], rules: (string | ActionView)[]): void {
   } as unknown as AssetView;
   const state = {
     ...emptyProject,
-    language: { actions, operators: [], directions: [] },
+    language: { actions, operators: [], directions: [], goals: [] },
     revisions: { a: ++revision },
     program: { ...emptyProject.program, text: "p", version: String(revision) },
   };

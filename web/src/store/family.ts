@@ -1,6 +1,7 @@
 // Which assets the family shows, and in which order.
 import type { Card, ConfidenceView, ProjectView } from "../wire";
 import { faultsOf, weightOf } from "./checks";
+import { flagsOf } from "./goals";
 import { oncePer } from "./once";
 import { useProject } from "./project";
 import { type FilterName, type Filters, useWorkspace } from "./workspace";
@@ -27,7 +28,7 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: C
   edited: (card) => card.output === "edited",
   accepted: (card) => card.review === "accepted",
   wrong: (card) => card.review === "wrong",
-  flagged: (card) => card.flags.length > 0,
+  flagged: (card) => flagsOf(card).length > 0,
   failed: (card) => card.output === "failed" || card.error !== null,
   stale: (card) => card.output !== "none" && card.stale.length > 0,
   findings: (card, engine) => faultsOf(card, engine).length > 0,

@@ -95,6 +95,9 @@ export function whyNotCheck(): string | null {
 
 export const checkAll = (): Promise<boolean> => startJob({ kind: "check" });
 
+/** Tries a goal that is not kept on all assets. */
+export const tryGoal = (text: string): Promise<boolean> => startJob({ kind: "check", goal: text });
+
 export function cancelJob(id: string): void {
   api.cancelJob(id).catch(reportError);
 }

@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import type { Card, ConfidenceView, EditHeader, HullView } from "../wire";
+import { failingGoals, hasOpenGoals } from "./goals";
 
 export type Group = "failed" | "wrong" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none" | "excluded";
 
@@ -14,7 +15,7 @@ export function groupOf(card: Card, sample: readonly string[] = []): Group {
   if (card.output === "failed") return card.stale.length ? "stale" : "failed";
   if (card.output === "none") return "none";
   if (card.review === "wrong") return "wrong";
-  if (card.flags.length > 0 && card.review === null) return "flagged";
+  if ((card.flags.length > 0 && card.review === null) || failingGoals(card).length) return "flagged";
   if (card.stale.length) return "stale";
   if (card.review === "accepted") return "accepted";
   return sample.includes(card.asset) ? "informative" : "open";
@@ -62,9 +63,9 @@ export const isWritten = ({ output }: Pick<Card, "output">): boolean => output =
 /** Whether the output of an asset is there as it would be now. */
 export const isUpToDate = (card: Card | undefined): boolean => card !== undefined && isWritten(card) && card.stale.length === 0;
 
-/** Whether the output of an asset is up to date, and signed off: sure enough, or accepted by a person. */
+/** Whether the output of an asset is up to date, and signed off: sure enough with no open goal, or accepted by a person. */
 export const isSignedOff = (card: Card, sure: ConfidenceView | undefined): boolean =>
-  isUpToDate(card) && (card.review === "accepted" || (card.review === null && sure?.state === "signed"));
+  isUpToDate(card) && (card.review === "accepted" || (card.review === null && sure?.state === "signed" && !hasOpenGoals(card)));
 
 /** How many outputs an export takes. */
 export function countExportable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>>): { signed: number; all: number } {

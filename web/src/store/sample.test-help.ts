@@ -23,6 +23,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   edited_picture: null,
   check: null,
   faults: null,
+  goals: [],
   ...change,
 });
 
@@ -53,6 +54,7 @@ export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): Review
   rule: null,
   hulls: [],
   choices: [],
+  goals: [],
   ...change,
 });
 

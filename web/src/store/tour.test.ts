@@ -48,7 +48,7 @@ test("doing what a mark asks for goes on by itself", () => {
   rules(1);
   rules(2);
   expect(title()).toBe("The second table is easier");
-  const card = { demonstrated: true, output: "none" } as Card;
+  const card: Card = { ...sampleCard(), demonstrated: true };
   useProject.setState({ cards: { a: card, b: card } });
   useWorkspace.setState({ stage: "learn" });
   expect(title()).toBe("MeshForge has learned"); // how sure it is, is not known yet

@@ -13,6 +13,7 @@ const operator = (name: string, base: boolean, ...given: Argument[]) => ({
 });
 const context: Context = {
   language: {
+    goals: [],
     actions: [
       sampleForm("Delete"),
       sampleForm("Replace", [

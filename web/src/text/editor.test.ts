@@ -7,6 +7,7 @@ import type { LanguageView } from "../wire";
 import { complete, diagnostic } from "./editor";
 
 const language: LanguageView = {
+  goals: [],
   actions: [sampleForm("Delete"), sampleForm("Replace", [sampleArgument("geometry", "shape", ["box", "capsule"])])],
   operators: [
     { name: "All", usage: "All", summary: "", base: true, arguments: [] },

@@ -15,7 +15,7 @@ _KEPT = 0.9
 
 @dataclass(frozen=True, slots=True)
 class Clear(Goal):
-    """A selection keeps its distance from another one, or from all that it did not touch before."""
+    """All that did not touch a selection before keeps its distance, or only what a second extractor selects."""
 
     part: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What keeps its distance"})
     other: Extractor | None = field(

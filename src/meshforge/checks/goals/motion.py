@@ -33,7 +33,7 @@ class Stands(Goal):
 
 @dataclass(frozen=True, slots=True)
 class Swings(Goal):
-    """What moves a selection, its joint or an axis, goes through its range, and it meets nothing else."""
+    """What moves a selection, a joint or an axis, goes through its range, and nothing else is met."""
 
     leaf: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What moves"})
     about: Extractor | None = field(

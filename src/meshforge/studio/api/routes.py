@@ -20,13 +20,14 @@ from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets, AddTemplate
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.jobs import start_job
-from meshforge.studio.queries import assets, packets, programs
+from meshforge.studio.queries import assets, goals, packets, programs
 from meshforge.studio.queries.project import model_of
 from meshforge.studio.session.session import Session
 from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
+from meshforge.studio.wire.family import ExtractorSuggestion, GoalCall, GoalView
 from meshforge.studio.wire.jobs import Job, JobRequest
 from meshforge.studio.wire.program import CoverageView, Guess, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
@@ -135,6 +136,31 @@ def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
     mesh = session.mesh(asset)
     pose, _ = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
     return Response(assets.draw_thumbnail(mesh, pose), media_type="image/png")
+
+
+@router.post("/api/goal/check")
+def check_goal(session: CurrentSession, request: GoalCall) -> GoalView:
+    """Return what a form comes to, and whether that is a goal."""
+    return goals.check_goal(session.project, request)
+
+
+@router.post("/api/goal/extractors")
+def suggest_extractors(
+    session: CurrentSession, asset: BodyText, select: Annotated[tuple[str, ...], Body()]
+) -> tuple[ExtractorSuggestion, ...]:
+    """Return extractors that select some hulls of an asset."""
+    return goals.suggest_extractors(session.project, asset, session.mesh(asset), select, session.present_program)
+
+
+@router.get("/api/goal/picture")
+def get_goal_picture(session: CurrentSession, asset: str, v: str) -> Response:
+    """Return the picture of a failure; v: its key."""
+    session.check_assets(asset)
+    kept = session.project.layout.goals(asset)
+    path = kept.parent / f"{kept.stem}.{v}.png"
+    if not (v.isalnum() and v.isascii() and path.is_file()):
+        raise NotHereError("there is no such picture", where=asset)
+    return Response(path.read_bytes(), media_type="image/png", headers=_CACHE_FOREVER)
 
 
 @router.post("/api/program/check")

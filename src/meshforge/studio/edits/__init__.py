@@ -18,6 +18,7 @@ AnyEdit = Annotated[
     | replies.ReplyToQuestion
     | program.AnswerForRule
     | program.TakeBack
+    | program.SetGoal
     | program.WriteProgram
     | assets.CutHull
     | assets.Unprepare

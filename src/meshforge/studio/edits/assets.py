@@ -102,7 +102,7 @@ class ReviewAssets(Edit):
     """Accept the results of some assets, or call them wrong; null takes that back.
 
     selections, labels: where the result of one asset is wrong, the hulls that rules should have selected, and labels
-    that hulls should have.
+    that hulls should have; goals: texts of those that fail on an accepted result, and do not count there.
     """
 
     kind: Literal["review"] = "review"
@@ -112,9 +112,12 @@ class ReviewAssets(Edit):
     note: str | None = None
     selections: dict[int, tuple[str, ...]] = Field(default_factory=dict)
     labels: dict[str, str] = Field(default_factory=dict)
+    goals: tuple[str, ...] = ()
 
     def apply(self, project: Project) -> None:
-        project.set_verdict(self.ids, self.verdict, self.note, selections=self.selections, labels=self.labels)
+        project.set_verdict(
+            self.ids, self.verdict, self.note, selections=self.selections, labels=self.labels, goals=self.goals
+        )
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         labels = map(project.layout.labels, self.ids if self.labels else ())

@@ -3,7 +3,7 @@
 from typing import Literal
 
 from meshforge.batch import action_text
-from meshforge.common import MeshForgeError, pluralize
+from meshforge.common import MeshForgeError, ProjectError, pluralize
 from meshforge.language import All, BaseExtractor, Is, LandmarkPair, Orient, Program, show
 from meshforge.project import Project
 from meshforge.store import ConflictError, Layout
@@ -132,6 +132,28 @@ class SetLandmarks(base.Edit):
 
 def _select(label: str | None) -> BaseExtractor:
     return All() if label is None else Is(label)
+
+
+class SetGoal(base.Edit):
+    """Keep a goal under a name; null takes it away. was: the name that it had before, null for a new one."""
+
+    kind: Literal["goal"] = "goal"
+    touches = (Layout.settings,)
+    name: str
+    text: str | None
+    was: str | None = None
+
+    def apply(self, project: Project) -> None:
+        if self.name != self.was and self.name in project.settings.goals and self.text is not None:
+            raise ProjectError(f"there is a goal {self.name!r} already", remedy="Give it another name.")
+        if not self.name.strip():
+            raise ProjectError("the goal has no name", remedy="Type one.")
+        project.set_goal(self.name, self.text)
+        if self.was and self.was != self.name and self.was in project.settings.goals:
+            project.set_goal(self.was, None)
+
+    def describe(self, project: Project) -> str:
+        return f"goal {self.name} taken away" if self.text is None else f"goal {self.name}: {self.text}"
 
 
 class AnswerForRule(base.Edit):

@@ -3,12 +3,15 @@ exporting it into a folder of its own."""
 
 import os
 import shutil
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from uuid import uuid4
 
 from meshforge import batch
+from meshforge.checks.goals.base import GoalOutcome
+from meshforge.checks.goals.registry import parse_goal
 from meshforge.common import (
     ProjectError,
     UsageError,
@@ -33,8 +36,8 @@ from meshforge.project import (
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
+from meshforge.studio.wire.family import Card, picture_key
+from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine, JobStatus
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
@@ -68,15 +71,19 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
                 summary.add(outcome)
                 progress.add_line(_apply_line(outcome, notes))
                 session.note_output(outcome.asset)
+        fails = 0
         if goals := project.read_goals():
             with progress.stage(len(jobs), "trying goals") as advance:
                 run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=advance)
-                list(project.try_goals(goals, only=[job.id for job in jobs], execution=run))
+                for one in project.try_goals(goals, only=[job.id for job in jobs], execution=run):
+                    fails += any(result.outcome in ("failed", "broken") for result in one.after.values())
+                    session.refresh_queue.add([one.asset])
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
         text = ", ".join(f"{number} {word}" for word, number in summary.counts.items())
-        remarks = (remark for remark in (unclear, describe_new(list(new.values()))) if remark)
+        of_goals = f"goals fail on {pluralize(fails, 'result')}" if fails else None
+        remarks = (remark for remark in (unclear, describe_new(list(new.values())), of_goals) if remark)
         sentences = (f"{remark[0].upper()}{remark[1:]}." for remark in remarks)
         return " ".join([f"{pluralize(len(assets), 'asset')}: {text or 'none'}.", *sentences])
 
@@ -119,6 +126,37 @@ def prepare_new(
     return results, unclear
 
 
+def start_goal(session: Session, text: str) -> Job:
+    """Start to try a goal on all assets, before and after the program. Raises ProgramError where it does not parse."""
+    project, counts = session.project, Counter[str]()
+    goal = parse_goal(text, "goal", project.words)
+
+    def work(progress: JobProgress) -> str:
+        run = replace(batch.GOAL_EXECUTION, stop=progress.is_stopped, progress=progress.advance)
+        for one in project.try_goals({text: goal}, execution=run):
+            line = _goal_line(one)
+            progress.add_line(line)
+            counts.update([line.status, *(f"{found.outcome} before" for found in one.before.values())])
+        tried = pluralize(counts["done"] + counts["failed"], "asset")
+        away = f"; it does not apply to {counts['skipped']}" if counts["skipped"] else ""
+        before = f", {counts['passed before']} before the edit" if project.program() else ""
+        return f"{goal.word()} holds on {counts['done']} of {tried}{before}{away}."
+
+    total = len(set(project.assets()) - project.exclusions().keys())
+    return session.jobs.start("goal", f"Trying {goal}", total, work)
+
+
+_GOAL_WORDS: Mapping[GoalOutcome, JobStatus] = {"passed": "done", "untried": "skipped"}
+
+
+def _goal_line(one: batch.AssetGoals) -> JobLine:
+    if one.error:
+        return JobLine(asset=one.asset, status="failed", text=one.error)
+    (result,), picture = one.after.values(), next(iter(one.pictures.values()), None)
+    status, key = _GOAL_WORDS.get(result.outcome, "failed"), picture_key(picture) if picture else None
+    return JobLine(asset=one.asset, status=status, text=result.why, picture=key)
+
+
 def start_check(session: Session) -> Job:
     """Start to check all outputs. Raises ProjectError where there are none."""
     assets = tuple(card.asset for card in session.pages.cards if card.check)
@@ -151,9 +189,11 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
 
 
 def list_signed_off(session: Session) -> list[Card]:
-    """Return the assets whose output is up to date and signed off: sure enough, or accepted by a person."""
+    """Return the assets whose output is up to date and signed off: sure enough, with no goal that fails or was not
+    tried, or accepted by a person."""
     known = session.pages.shown.assessment
     unreviewed = {row.asset for row in known.assets if row.state == "signed"} if known else set()
+    unreviewed -= {card.asset for card in session.pages.cards if any(goal.is_open for goal in card.goals)}
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]
     return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in unreviewed)]
 

@@ -9,6 +9,7 @@ from meshforge.common import MeshForgeError, ProgramError
 from meshforge.project import Project
 from meshforge.studio.actions import list_action_forms, list_operator_views, view_action
 from meshforge.studio.edits.base import program_version
+from meshforge.studio.queries.goals import list_goal_forms
 from meshforge.studio.wire import program as wire
 from meshforge.studio.wire.requests import SelectRequest
 from meshforge.symbolic import SymbolicMesh
@@ -77,7 +78,10 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 def build_language_view() -> wire.LanguageView:
     """Return actions, operators and directions; `Each` is no form of its own."""
     return wire.LanguageView(
-        actions=list_action_forms(), operators=list_operator_views(), directions=language.DIRECTIONS
+        actions=list_action_forms(),
+        operators=list_operator_views(),
+        directions=language.DIRECTIONS,
+        goals=list_goal_forms(),
     )
 
 

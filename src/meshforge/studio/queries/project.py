@@ -21,6 +21,7 @@ from meshforge.rendering import label_color
 from meshforge.signoff import ResultState
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
+from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.jobs import Model
@@ -89,6 +90,7 @@ def build_project_view(
         rules=_rule_lines(project),
         answers=tuple(_list_feedback(project)),
         templates=project.template_names(),
+        goals=list_goal_views(project),
         propagation=propagated,
         next=next_step,
         new=new,
@@ -183,6 +185,7 @@ def build_card(
         edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,
         faults=faults,
+        goals=tuple(map(wire.GoalResultView.model_validate, status.result_status.goals)),
         **{name: getattr(status, name) for name in _SHARED},
     )
 

@@ -14,6 +14,7 @@ from meshforge.project import Project
 from meshforge.store import Effect, Feedback, Layout, identify_file, list_files
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
+from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.queries.project import vocabulary_view
 from meshforge.studio.session.refresh import RefreshQueue
@@ -79,7 +80,7 @@ class FileSync:
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         self.project = replace(self.project, every=Project.open(self.project.folder).every)
-        self._pages.change_project(vocabulary=vocabulary_view(self.project.words))
+        self._pages.change_project(vocabulary=vocabulary_view(self.project.words), goals=list_goal_views(self.project))
         self._family = self.project.assets()
         self._queue.add(self._pages.set_assets(self._family), later=True)
 

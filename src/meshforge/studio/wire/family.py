@@ -1,7 +1,11 @@
 """The project, the cards of its assets in the gallery, how sure their edits are, and the question worth most."""
 
-from typing import Literal
+from pathlib import Path
+from typing import Annotated, Literal
 
+from pydantic import BeforeValidator, Field
+
+from meshforge.checks.goals.base import GoalOutcome
 from meshforge.language import Direction
 from meshforge.project import NextStep, OutputState, PropagationState
 from meshforge.signoff import ExclusionReason, Reason
@@ -18,6 +22,52 @@ NO_PART = -2
 """In `Card.labels`, of a hull that is none of the parts."""
 
 
+class GoalResultView(Wire):
+    """What is known of a goal on the result of an asset, as in `GoalStatus`; picture: the key of that of a failure."""
+
+    name: str
+    goal: str
+    outcome: GoalOutcome | None = None
+    why: str = ""
+    hulls: tuple[str, ...] = ()
+    before: GoalOutcome | None = None
+    accepted: bool = False
+    fails: bool = False
+    is_open: bool = False
+    picture: Annotated[str | None, BeforeValidator(lambda path: path and picture_key(path))] = None
+
+
+def picture_key(path: Path) -> str:
+    """Return the key of the picture of a failure."""
+    return path.name.rsplit(".", 2)[1]
+
+
+class GoalCall(Wire):
+    """A goal as a form has it. name: the word that begins it; arguments: texts, those that are left out missing."""
+
+    name: str
+    arguments: dict[str, str] = Field(default_factory=dict)
+
+
+class GoalView(Wire):
+    """A goal of the project, or what a form comes to, with a proposal for its name. sentence: it in words; call: as a
+    form has it, null where it is none; error: why, where in the text, and what helps."""
+
+    name: str
+    text: str
+    sentence: str = ""
+    call: GoalCall | None = None
+    error: str | None = None
+
+
+class ExtractorSuggestion(Wire):
+    """An extractor that selects what a person selected on an asset, or more. places: positions of what it selects."""
+
+    text: str
+    sentence: str
+    places: tuple[int, ...]
+
+
 class Card(Wire):
     """One asset in the gallery.
 
@@ -29,7 +79,7 @@ class Card(Wire):
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
     check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
-    where it was not checked.
+    where it was not checked; goals: what is known of those of the project on the result.
     """
 
     asset: str
@@ -53,6 +103,7 @@ class Card(Wire):
     edited_picture: str | None = None
     check: str | None = None
     faults: tuple[Fault, ...] | None = None
+    goals: tuple[GoalResultView, ...] = ()
 
 
 class VocabularyLabel(Wire):
@@ -129,6 +180,7 @@ class ProjectView(Wire):
     rules: tuple[RuleLine, ...] = ()
     answers: tuple[AnswerView, ...] = ()
     templates: tuple[str, ...] = ()
+    goals: tuple[GoalView, ...] = ()
     propagation: PropagationState | None = None
     next: NextStep
     new: NewAssetsView | None = None
@@ -168,7 +220,7 @@ class ReviewChoiceView(Wire):
 
 class ReviewQuestionView(Wire):
     """A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
-    those in question."""
+    those in question; goals: texts of those that fail on a result."""
 
     id: str
     kind: QuestionKind
@@ -179,6 +231,7 @@ class ReviewQuestionView(Wire):
     rule: int | None = None
     hulls: tuple[HullRef, ...] = ()
     choices: tuple[ReviewChoiceView, ...] = ()
+    goals: tuple[str, ...] = ()
 
 
 class AssessmentView(Wire):

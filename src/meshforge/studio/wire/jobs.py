@@ -5,16 +5,21 @@ from typing import Literal
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
-JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check"]
+JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "goal"]
+
+
+JobStatus = Literal["done", "edited", "unchanged", "failed", "skipped"]
 
 
 class JobLine(Wire):
-    """What became of one asset in a job. before: what was done to a new asset before the program, in sentences."""
+    """What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
+    picture: the key of that of a goal that fails."""
 
     asset: str
-    status: Literal["done", "edited", "unchanged", "failed", "skipped"]
+    status: JobStatus
     text: str = ""
     before: tuple[str, ...] = ()
+    picture: str | None = None
 
 
 class Job(Wire):
@@ -94,9 +99,10 @@ class AskJob(Wire):
 
 
 class CheckJob(Wire):
-    """Run all checks on the outputs of all assets."""
+    """Run all checks on the outputs of all assets, or try a goal on them that is not kept."""
 
     kind: Literal["check"] = "check"
+    goal: str | None = None
 
 
 JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob

@@ -201,7 +201,8 @@ class Guess(Wire):
 
 
 class Operator(Wire):
-    """An extractor's operator and its operands, for completion; base: whether it is a base extractor."""
+    """An extractor's operator and its operands, for completion, or a goal and its arguments: `words`, an `extractor` or
+    a `text`, with their defaults as `omitted`; base: whether it is a base extractor."""
 
     name: str
     usage: str
@@ -211,8 +212,9 @@ class Operator(Wire):
 
 
 class LanguageView(Wire):
-    """The language: actions (without Each, a switch in the page), operators, directions."""
+    """The language: actions (without Each, a switch in the page), operators, directions; goals."""
 
     actions: tuple[ActionForm, ...]
     operators: tuple[Operator, ...]
     directions: tuple[str, ...]
+    goals: tuple[Operator, ...]

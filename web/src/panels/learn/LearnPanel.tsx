@@ -15,6 +15,7 @@ import {
 import { demonstrate, learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { openQuestion } from "../../store/assessment";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
+import { openGoals } from "../../store/goals";
 import { countReadable, useProject } from "../../store/project";
 import { useWorkspace } from "../../store/workspace";
 import { Doubts } from "../../family/Sureness";
@@ -83,7 +84,8 @@ function LearnState() {
   const assets = useProject((state) => countReadable(state.cards));
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
-  const said = summarizeOutcome(outcome, assets, { assessment, assessing });
+  const goals = useProject(openGoals);
+  const said = summarizeOutcome(outcome, assets, { assessment, assessing, goals });
   const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">

@@ -5,12 +5,14 @@ import { demonstrate } from "../../commands/learn";
 import { canBeRight, groupReply, putOff, reply, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
+import { failingGoals } from "../../store/goals";
 import { isUpToDate } from "../../store/reviews";
 import { useProject } from "../../store/project";
 import { shortName, toSentence } from "../../store/words";
 import { setHighlight } from "../../store/workspace";
 import { Swatch } from "../../ui/Section";
 import type { ReviewChoiceView, ReviewQuestionView } from "../../wire";
+import { GoalPicture } from "../review/GoalFailures";
 import { useCardKeys } from "./cardKeys";
 import { GroupHulls, groupText } from "./GroupHulls";
 import { whilePointed } from "../../ui/whilePointed";
@@ -29,18 +31,26 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
       aria-labelledby="asked"
       {...whilePointed(point, () => setHighlight(null))}
     >
+      <GoalPictures question={question} />
       <h3 id="asked">{question.text}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
-      {canBeRight(question) && <ResultPictures asset={question.asset} />}
+      {canBeRight(question) && <ResultPictures asset={question.asset} drawn={question.goals.length > 0} />}
       {question.kind === "result" ? <ResultReplies question={question} /> : <Replies question={question} exceptions={exceptions} />}
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
   );
 }
 
-/** An asset before and after, where its result is written; the view shows it at any rate. And what stands out of it. */
-function ResultPictures({ asset }: { asset: string }) {
-  const made = useProject((state) => isUpToDate(state.cards[asset]));
+/** What fails on the result, where a goal does. */
+function GoalPictures({ question: { asset, goals } }: { question: ReviewQuestionView }) {
+  const card = useProject((state) => state.cards[asset]);
+  return failingGoals(card, goals).map((goal) => <GoalPicture key={goal.name} asset={asset} goal={goal} />);
+}
+
+/** An asset before and after, where its result is written, and not `drawn` above; the view shows it at any rate. And
+ * what stands out of it. */
+function ResultPictures({ asset, drawn }: { asset: string; drawn: boolean }) {
+  const made = useProject((state) => !drawn && isUpToDate(state.cards[asset]));
   const doubts = useProject((state) => state.confidence[asset]?.reasons);
   const alarms = (doubts ?? []).filter((doubt) => doubt.kind === "alarm");
   return (

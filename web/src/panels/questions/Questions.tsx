@@ -3,6 +3,7 @@ import { CircleCheck, CircleQuestionMark, LoaderCircle } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useMemo, useRef } from "react";
 import { lookAtHeld, showAsked, takeCall, useCardCalls } from "../../commands/question";
 import { isJudging, openQuestion } from "../../store/assessment";
+import { openGoals } from "../../store/goals";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
@@ -66,7 +67,9 @@ function NoQuestion() {
 }
 
 function Over({ assessment: { need_review: open, unseen } }: { assessment: AssessmentView }) {
-  if (!open) return <Line icon={<CircleCheck size={15} aria-hidden />} text="Nothing is left to ask." mood={unseen ? "plain" : "good"} />;
+  const goals = useProject(openGoals);
+  const text = goals ? `Nothing is left to ask; ${goals}.` : "Nothing is left to ask.";
+  if (!open) return <Line icon={<CircleCheck size={15} aria-hidden />} text={text} mood={unseen || goals ? "plain" : "good"} />;
   return (
     <Line icon={<CircleQuestionMark size={15} aria-hidden />} text={`Nothing more to ask, and ${countText(open, "result")} ${open === 1 ? "needs" : "need"} review.`}>
       <Button onClick={lookAtHeld}>Look at {open === 1 ? "it" : "them"}</Button>

@@ -13,7 +13,7 @@ import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
 
 export function ResultReplies({ question }: { question: ReviewQuestionView }) {
-  const { asset, choices } = question;
+  const { asset, choices, goals } = question;
   const asks = canBeRight(question);
   const has = (id: string) => choices.some((choice) => choice.id === id);
   const [wrong, setWrong] = useState(!asks);
@@ -34,7 +34,7 @@ export function ResultReplies({ question }: { question: ReviewQuestionView }) {
       <div className={css.row}>
         {asks && (
           <Reply keyName="Y" look={wrong ? "plain" : "primary"} icon={Check} onClick={doing(right)}>
-            Right
+            {goals.length ? "Accept it all the same" : "Right"}
           </Reply>
         )}
         {!wrong && (

@@ -3,6 +3,7 @@ import { Check, RotateCw, SkipForward, Undo2, X } from "lucide-react";
 import { useState } from "react";
 import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
+import { failingGoals } from "../../store/goals";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
@@ -14,6 +15,7 @@ import { Note, Section } from "../../ui/Section";
 import type { Card } from "../../wire";
 import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
+import { GoalsOfAsset } from "./GoalFailures";
 import { ExcludeMenu } from "../questions/ExcludeMenu";
 import { Findings, NumbersTable, Trace, useResult, useResultKind } from "./ResultDetails";
 import css from "./review.module.css";
@@ -35,6 +37,7 @@ function OneAsset({ asset }: { asset: string }) {
       <VerdictSection asset={asset} />
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
+      <GoalsOfAsset asset={asset} />
       <Doubts asset={asset} />
       {result.kind === "problem" && !hasError && (
         <Section title="Result">
@@ -64,15 +67,16 @@ function VerdictSection({ asset }: { asset: string }) {
   if (!card) return null;
   const written = isWritten(card);
   const stale = card.stale.length > 0;
+  const fails = failingGoals(card).length > 0;
   return (
     <Section title={shortName(asset)} aside={<ReviewState card={card} />}>
       <div className={css.row}>
         {written && card.review !== "accepted" && (
           <Button
-            look={stale ? "plain" : "primary"}
+            look={stale || fails ? "plain" : "primary"}
             icon={Check}
             disabled={stale}
-            tip={stale ? "It is not up to date: apply first" : "Accept and go to the next result to review"}
+            tip={stale ? "It is not up to date: apply first" : fails ? "Accept the result; the goal that fails stands beside it until you accept that, too" : "Accept and go to the next result to review"}
             keys="Y"
             onClick={() => void accept(asset)}
           >

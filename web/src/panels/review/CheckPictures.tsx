@@ -99,7 +99,7 @@ function useFetched(source: string): string | undefined {
 }
 
 /** A picture that a click shows large, over everything else. */
-function EnlargeablePicture({ source, text }: { source: string; text: string }) {
+export function EnlargeablePicture({ source, text }: { source: string; text: string }) {
   const shown = useFetched(source);
   return (
     <Dialog.Root>

@@ -1,11 +1,12 @@
 // Which outputs are copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useMemo, useState } from "react";
+import { openGoals } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countExportable } from "../../store/reviews";
 import { notify, reportError } from "../../store/toasts";
-import { countText } from "../../store/words";
+import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
@@ -34,6 +35,7 @@ function Form() {
   const project = useProject((state) => state.project.folder);
   const cards = useProject((state) => state.cards);
   const confidence = useProject((state) => state.confidence);
+  const goals = useProject(openGoals);
   const counts = useMemo(() => countExportable(Object.values(cards), confidence), [cards, confidence]);
   const options = [
     { value: "signed", label: `Signed off (${counts.signed})` },
@@ -54,6 +56,12 @@ function Form() {
       <input id="export-folder" className={css.field} value={folder} onChange={(event) => setFolder(event.target.value)} spellCheck={false} />
       <span />
       <p className={css.dim}>{why ?? `Below ${project}.`}</p>
+      {goals && (
+        <>
+          <span />
+          <p className={css.warn}>{capitalize(goals)}.</p>
+        </>
+      )}
       <span />
       <Button look="primary" icon={FolderOutput} type="submit" disabled={why !== null || !folder.trim()}>
         Export {countText(counts[what], "asset")}

@@ -37,9 +37,9 @@ function Part({ job, unit }: { job: Job; unit: string }) {
 
 const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
 
-/** How a job ended, in its own words; what could not be done for some assets is not good. */
-export function JobNote({ job }: { job: Job }) {
-  const failed = job.state === "done" && job.lines.some(({ status }) => status === "failed");
+/** How a job ended, in its own words; what could not be done for some assets, or is doubtful at any rate, is not good. */
+export function JobNote({ job, doubtful = false }: { job: Job; doubtful?: boolean }) {
+  const failed = doubtful || job.state === "done" && job.lines.some(({ status }) => status === "failed");
   return <Note mood={failed ? "warn" : MOODS[job.state]}>{job.message}</Note>;
 }
 

@@ -5,6 +5,7 @@ import { memo, useEffect, useMemo, useRef, useState } from "react";
 import { acceptLegal } from "../../commands/review";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { countByEdit, faultsOf, findingsText } from "../../store/checks";
+import { flagsOf } from "../../store/goals";
 import { useProject } from "../../store/project";
 import {
   getVerdict,
@@ -153,7 +154,7 @@ function StateLine({ card }: { card: Card }) {
   if (card.stale.length) return <span className={css.warn}>not up to date: {staleText(card.stale)}</span>;
   if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
   if (card.review === "wrong") return <span className={css.warn}>✗ {card.note ?? "wrong"}</span>;
-  const flag = card.flags[0];
+  const [flag] = flagsOf(card);
   if (flag) return <span className={css.warn}>⚑ {flag}</span>;
   return card.review === "accepted" ? <span className={css.good}>✓ accepted</span> : null;
 }

@@ -2,6 +2,7 @@
 import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
 import { SignOff } from "../../family/Sureness";
+import { openGoals } from "../../store/goals";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
 import { useProject } from "../../store/project";
@@ -14,6 +15,7 @@ import type { Card, Job } from "../../wire";
 import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
+import { Goals } from "./Goals";
 import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import { Results } from "./Results";
 import css from "./review.module.css";
@@ -21,6 +23,7 @@ import css from "./review.module.css";
 const PARTS = [
   { value: "asset", label: "This asset" },
   { value: "all", label: "All results" },
+  { value: "goals", label: "Goals" },
   { value: "export", label: "Export" },
 ] as const;
 type Part = (typeof PARTS)[number]["value"];
@@ -39,6 +42,7 @@ export function ReviewPanel() {
       <div className={css.part} data-part={part}>
         {part === "asset" && <AssetReview />}
         {part === "all" && <Results onOpen={() => setPart("asset")} />}
+        {part === "goals" && <Goals onOpen={() => setPart("asset")} />}
         {part === "export" && <ExportSection />}
       </div>
     </div>
@@ -79,9 +83,10 @@ function NewAssets() {
 
 /** How the last run ended, and what was done to new assets before it. */
 function Outcome({ job }: { job: Job }) {
+  const goals = useProject((state) => job.state === "done" && openGoals(state) !== null);
   return (
     <>
-      <JobNote job={job} />
+      <JobNote job={job} doubtful={goals} />
       <JobLines lines={linesOfNew(job)} />
     </>
   );
