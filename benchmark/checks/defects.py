@@ -1,4 +1,4 @@
-"""Planted defects: what `meshforge check` finds of them on assets of the corpus, by the plan in `defects.toml`."""
+"""Defect defects: what `meshforge check` finds of them on assets of the corpus, by the plan in `defects.toml`."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
-from benchmark.checks import files, planting
-from benchmark.checks.planting import Planted, Subject
+from benchmark.checks import defect_kinds, files
+from benchmark.checks.defect_kinds import Defect, Subject
 from benchmark.journal import ROOT, run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.common import AssetError, MeshForgeError
@@ -47,7 +47,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     own = {row["asset"]: row["own"] for row in rows}
     return Result(
         "defects",
-        "Planted defects",
+        "Defect defects",
         (
             Table("Found", _COLUMNS, tuple(_count(name, defects) for name in _names("defect"))),
             Table("Alarms on harmless changes", _COLUMNS, tuple(_count(name, harmless) for name in _names("harmless"))),
@@ -117,7 +117,7 @@ def _write_base(asset: str, folder: Path) -> Path | None:
         return None
 
 
-def _plant(kind: str, asset: str, base: Path, folder: Path) -> tuple[Path, Planted] | None:
+def _plant(kind: str, asset: str, base: Path, folder: Path) -> tuple[Path, Defect] | None:
     """The file of the asset with a defect, and what was changed; None where it does not fit."""
     subject = Subject(load(base), f"{kind}|{asset}")
     target = folder / _digest(kind) / base.name
@@ -128,7 +128,7 @@ def _plant(kind: str, asset: str, base: Path, folder: Path) -> tuple[Path, Plant
         planted = rewrite(subject, target, tree.getroot())
         tree.write(target, encoding="utf-8")
         return (target, planted) if planted else None
-    planted = {**planting.DEFECTS, **planting.HARMLESS}[kind](subject)
+    planted = {**defect_kinds.DEFECTS, **defect_kinds.HARMLESS}[kind](subject)
     if planted is None:
         return None
     try:
@@ -136,7 +136,7 @@ def _plant(kind: str, asset: str, base: Path, folder: Path) -> tuple[Path, Plant
     except MeshForgeError:
         return None
     names = frozenset(saved.names.get(name, name) for name in planted.hulls)
-    return saved.path, Planted(planted.mesh, names | planted.hulls, planted.bodies)
+    return saved.path, Defect(planted.mesh, names | planted.hulls, planted.bodies)
 
 
 def try_asset(asset: str, kinds: Sequence[str]) -> list[Row]:
@@ -177,7 +177,7 @@ def _check(paths: Sequence[Path], engine: str | None) -> dict[Path, list[Finding
     return found
 
 
-def _is_new(finding: Finding, own: Sequence[Finding], what: Planted) -> bool:
+def _is_new(finding: Finding, own: Sequence[Finding], what: Defect) -> bool:
     """Whether an asset without the defect has no such finding, and it is about the defect; of changes that give hulls
     other names, whether it has none by that rule."""
     rule, _, hulls, message = finding

@@ -8,13 +8,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from benchmark.checks.planting import Planted, Subject, is_deep, move
+from benchmark.checks.defect_kinds import Defect, Subject, is_deep, move
 from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Pose, convex_hull, distance
 from meshforge.symbolic import Hull, Joint
 
 Element = ElementTree.Element
-Rewrite = Callable[[Subject, Path, Element], Planted | None]
+Rewrite = Callable[[Subject, Path, Element], Defect | None]
 """Changes a URDF, given its file and root, in place; the hulls and bodies changed, None where it does not fit."""
 _STEPS = 9
 _LEAST = 0.02
@@ -23,7 +23,7 @@ _LEAST = 0.02
 def _scale(factor: float) -> Rewrite:
     """All lengths; masses as of the same density."""
 
-    def rewrite(subject: Subject, _: Path, root: Element) -> Planted:
+    def rewrite(subject: Subject, _: Path, root: Element) -> Defect:
         powers = {"xyz": 1, "size": 1, "radius": 1, "length": 1, "mass": 3}
         for one in root.iter():
             for name, power in powers.items():
@@ -42,7 +42,7 @@ def _scale(factor: float) -> Rewrite:
                 for limit in joint.iter("limit"):
                     for name in ("lower", "upper"):
                         _multiply(limit, name, factor)
-        return Planted(subject.mesh)
+        return Defect(subject.mesh)
 
     return rewrite
 
@@ -52,7 +52,7 @@ def _multiply(one: Element, name: str, factor: float) -> None:
         one.set(name, " ".join(f"{float(word) * factor:.17g}" for word in one.attrib[name].split()))
 
 
-def _turn(subject: Subject, _: Path, root: Element) -> Planted:
+def _turn(subject: Subject, _: Path, root: Element) -> Defect:
     """The whole asset turned and moved, by a link above all others."""
     children = {child.get("link") for child in root.iter("child")}
     tops = [link.get("name", "") for link in root.findall("link") if link.get("name") not in children]
@@ -62,13 +62,13 @@ def _turn(subject: Subject, _: Path, root: Element) -> Planted:
         ElementTree.SubElement(joint, "origin", xyz="0.8 0.6 0", rpy=f"0 0 {np.radians(37)}")
         ElementTree.SubElement(joint, "parent", link="above all")
         ElementTree.SubElement(joint, "child", link=top)
-    return Planted(subject.mesh)
+    return Defect(subject.mesh)
 
 
 def _join(suffix: str) -> Rewrite:
     """The hulls of a body as one mesh, which the link names once."""
 
-    def rewrite(subject: Subject, file: Path, root: Element) -> Planted | None:
+    def rewrite(subject: Subject, file: Path, root: Element) -> Defect | None:
         for body, hulls in subject.bodies.items():
             if len(hulls) < 2 or not _leaves_space(hulls):
                 continue
@@ -80,7 +80,7 @@ def _join(suffix: str) -> Rewrite:
                 link.remove(collision)
             geometry = ElementTree.SubElement(ElementTree.SubElement(link, "collision"), "geometry")
             ElementTree.SubElement(geometry, "mesh", filename=mesh.name)
-            return Planted(subject.mesh, frozenset(hull.name for hull in hulls), frozenset({body}))
+            return Defect(subject.mesh, frozenset(hull.name for hull in hulls), frozenset({body}))
         return None
 
     return rewrite
@@ -116,14 +116,14 @@ def _write_stl(path: Path, hulls: list[Hull]) -> None:
     path.write_bytes(bytes(80) + np.uint32(len(rows)).tobytes() + rows.tobytes())
 
 
-def _lose_file(subject: Subject, file: Path, root: Element) -> Planted | None:
+def _lose_file(subject: Subject, file: Path, root: Element) -> Defect | None:
     meshes = [(link.get("name", ""), mesh) for link in root.findall("link") for mesh in link.iter("mesh")]
     shown = {mesh.get("filename") for visual in root.iter("visual") for mesh in visual.iter("mesh")}
     names = {mesh.get("filename", ""): body for body, mesh in meshes if mesh.get("filename") not in shown}
     for name in subject.shuffle(names, str):
         if (file.parent / name).is_file():
             (file.parent / name).unlink()
-            return Planted(subject.mesh, frozenset(), frozenset({names[name]}))
+            return Defect(subject.mesh, frozenset(), frozenset({names[name]}))
     return None
 
 
@@ -134,20 +134,20 @@ def _inertials(subject: Subject, root: Element) -> Iterator[tuple[str, Element]]
             yield body, own
 
 
-def _make_heavy(subject: Subject, _: Path, root: Element) -> Planted | None:
+def _make_heavy(subject: Subject, _: Path, root: Element) -> Defect | None:
     for body, own in _inertials(subject, root):
         for one in own.iter():
             for name in ("value", "ixx", "iyy", "izz", "ixy", "ixz", "iyz"):
                 _multiply(one, name, 1000)
-        return Planted(subject.mesh, frozenset(), frozenset({body}))
+        return Defect(subject.mesh, frozenset(), frozenset({body}))
     return None
 
 
-def _break_inertia(subject: Subject, _: Path, root: Element) -> Planted | None:
+def _break_inertia(subject: Subject, _: Path, root: Element) -> Defect | None:
     for body, own in _inertials(subject, root):
         for one in own.iter("inertia"):
             one.set("ixx", str(2 * (float(one.get("iyy", 0)) + float(one.get("izz", 0)))))
-            return Planted(subject.mesh, frozenset(), frozenset({body}))
+            return Defect(subject.mesh, frozenset(), frozenset({body}))
     return None
 
 
@@ -155,7 +155,7 @@ def _find_joint(root: Element, joint: Joint) -> Element | None:
     return next((one for one in root.findall("joint") if one.get("name") == joint.name), None)
 
 
-def _turn_axis(subject: Subject, _: Path, root: Element) -> Planted | None:
+def _turn_axis(subject: Subject, _: Path, root: Element) -> Defect | None:
     for joint in subject.joints:
         own = _find_joint(root, joint)
         axis = own.find("axis") if own is not None else None
@@ -167,7 +167,7 @@ def _turn_axis(subject: Subject, _: Path, root: Element) -> Planted | None:
         other = turned @ np.roll(turned.T @ joint.axis, 1)
         if _list_met(subject, joint, below, other) - _list_met(subject, joint, below, joint.axis):
             axis.set("xyz", " ".join([words[2], words[0], words[1]]))
-            return Planted(subject.mesh, frozenset(), below | {joint.parent})
+            return Defect(subject.mesh, frozenset(), below | {joint.parent})
     return None
 
 
@@ -184,7 +184,7 @@ def _list_met(subject: Subject, joint: Joint, below: frozenset[str], axis: Float
     return met
 
 
-def _swap_limits(subject: Subject, _: Path, root: Element) -> Planted | None:
+def _swap_limits(subject: Subject, _: Path, root: Element) -> Defect | None:
     for joint in subject.joints:
         own = _find_joint(root, joint)
         limit = own.find("limit") if own is not None else None
@@ -192,7 +192,7 @@ def _swap_limits(subject: Subject, _: Path, root: Element) -> Planted | None:
             low, high = limit.get("lower", "0"), limit.get("upper", "0")
             limit.set("lower", high)
             limit.set("upper", low)
-            return Planted(subject.mesh, frozenset(), frozenset({joint.child, joint.parent}))
+            return Defect(subject.mesh, frozenset(), frozenset({joint.child, joint.parent}))
     return None
 
 

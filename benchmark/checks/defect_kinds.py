@@ -60,29 +60,29 @@ class Subject:
     def size(self) -> float:
         return self.mesh.diagonal
 
-    def shown(self, body: str) -> Aabb | None:
+    def find_shown_box(self, body: str) -> Aabb | None:
         """The box of what a body shows."""
         visuals = self.mesh.asset.visuals if self.mesh.asset else ()
         points = [one.vertices for one in visuals if one.body in (body, None) and len(one.faces)]
         return Aabb.of_points(np.concatenate(points)) if points else None
 
-    def change(self, body: str, linear: Floats, offset: Floats) -> Planted:
+    def change(self, body: str, linear: Floats, offset: Floats) -> Defect:
         """The hulls of a body transformed."""
         hulls = [replace(hull, shape=hull.shape.transform(linear, offset)) for hull in self.bodies[body]]
         return self.put(hulls)
 
-    def put(self, hulls: Sequence[Hull], gone: Iterable[str] = ()) -> Planted:
+    def put(self, hulls: Sequence[Hull], gone: Iterable[str] = ()) -> Defect:
         """Hulls in place of those with their names, or new ones; gone: names of those that are deleted."""
         known, away = self.mesh.index, {*gone, *(hull.name for hull in hulls)}
         made = [replace(one, name=f"{one.name} anew", parent=one.name) if one.name in known else one for one in hulls]
         kept = [hull for hull in self.mesh.hulls if hull.name not in away]
         touched = frozenset(hull.body for hull in (*self.mesh.hulls, *made) if hull.name in away or hull in made)
         names = frozenset((*away, *(hull.name for hull in made)))
-        return Planted(self.mesh.with_hulls((*kept, *made)), names, touched)
+        return Defect(self.mesh.with_hulls((*kept, *made)), names, touched)
 
 
 @dataclass(frozen=True, eq=False)
-class Planted:
+class Defect:
     """An asset with a defect, and the names of hulls and bodies that were changed; none where all have other names."""
 
     mesh: SymbolicMesh
@@ -90,7 +90,7 @@ class Planted:
     bodies: frozenset[str] = frozenset()
 
 
-Plant = Callable[[Subject], Planted | None]
+Plant = Callable[[Subject], Defect | None]
 
 
 def _about(linear: Floats, at: Floats) -> tuple[Floats, Floats]:
@@ -115,9 +115,9 @@ def _list_other_hulls(subject: Subject, body: str) -> list[Hull]:
     return [hull for hull in subject.mesh.hulls if rigid[hull.body] != rigid[body]]
 
 
-def _fill_room(subject: Subject) -> Planted | None:
+def _fill_room(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
-        if len(hulls) < 2 or not subject.shown(body):
+        if len(hulls) < 2 or not subject.find_shown_box(body):
             continue
         try:
             whole = convex_hull(np.concatenate([hull.vertices for hull in hulls]))
@@ -130,9 +130,9 @@ def _fill_room(subject: Subject) -> Planted | None:
     return None
 
 
-def _plug_opening(subject: Subject) -> Planted | None:
+def _plug_opening(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
-        ways = [way for axis in range(3) if (way := find_way(hulls, axis))] if subject.shown(body) else []
+        ways = [way for axis in range(3) if (way := find_way(hulls, axis))] if subject.find_shown_box(body) else []
         if ways:
             way = max(ways, key=lambda one: float(one.size[1] * one.size[2]))
             if 2 * way.size[1:].min() >= 0.03 * subject.size:
@@ -142,7 +142,7 @@ def _plug_opening(subject: Subject) -> Planted | None:
     return None
 
 
-def _jam_at_rest(subject: Subject) -> Planted | None:
+def _jam_at_rest(subject: Subject) -> Defect | None:
     for joint in subject.joints:
         hulls, others = subject.bodies.get(joint.child, []), _list_other_hulls(subject, joint.child)
         if hulls:
@@ -163,7 +163,7 @@ def move(joint: Joint, shape: Shape, way: float, axis: Floats | None = None) -> 
     return shape.transform(*_about(rotation_about(along, way), joint.anchor))
 
 
-def _jam_on_its_way(subject: Subject) -> Planted | None:
+def _jam_on_its_way(subject: Subject) -> Defect | None:
     half = 0.015 * subject.size
     for joint in subject.joints:
         below = set(subject.tree.list_below(joint.child))
@@ -178,25 +178,25 @@ def _jam_on_its_way(subject: Subject) -> Planted | None:
     return None
 
 
-def _shift(subject: Subject) -> Planted | None:
+def _shift(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
-        if subject.shown(body):
+        if subject.find_shown_box(body):
             way = np.zeros(3)
             way[int(_box_of(hulls).size.argmax())] = 0.08 * subject.size
             return subject.change(body, np.eye(3), way)
     return None
 
 
-def _turn(subject: Subject) -> Planted | None:
+def _turn(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
         box = _box_of(hulls)
         least, most = sorted(box.size[:2])
-        if subject.shown(body) and most - least >= max(0.25 * most, 0.05 * subject.size):
+        if subject.find_shown_box(body) and most - least >= max(0.25 * most, 0.05 * subject.size):
             return subject.change(body, *_about(rotation_about(_UP, np.pi / 2), box.center))
     return None
 
 
-def _mirror(subject: Subject) -> Planted | None:
+def _mirror(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
         box, linear = _box_of(hulls), np.eye(3)
         axis = int(box.size.argmax())
@@ -205,24 +205,24 @@ def _mirror(subject: Subject) -> Planted | None:
         both = (hulls, [hull for hull in planted.mesh.hulls if hull.body == body])
         points = [np.concatenate([hull.vertices for hull in some]) for some in both]
         reach = [(one @ _SIDES.T / np.linalg.norm(_SIDES, axis=1)).max(axis=0) for one in points]
-        if subject.shown(body) and np.abs(reach[0] - reach[1]).max() >= 0.03 * subject.size:
+        if subject.find_shown_box(body) and np.abs(reach[0] - reach[1]).max() >= 0.03 * subject.size:
             return planted
     return None
 
 
 def _scale_body(factor: float) -> Plant:
-    def plant(subject: Subject) -> Planted | None:
+    def plant(subject: Subject) -> Defect | None:
         for body, hulls in subject.bodies.items():
-            if subject.shown(body):
+            if subject.find_shown_box(body):
                 return subject.change(body, *_about(factor * np.eye(3), _box_of(hulls).center))
         return None
 
     return plant
 
 
-def _stretch_hull(subject: Subject) -> Planted | None:
+def _stretch_hull(subject: Subject) -> Defect | None:
     for hull in subject.hulls:
-        box, shown, linear = hull.aabb, subject.shown(hull.body), np.eye(3)
+        box, shown, linear = hull.aabb, subject.find_shown_box(hull.body), np.eye(3)
         linear[int(box.size.argmax()), int(box.size.argmax())] = 1.6
         long = hull.shape.transform(*_about(linear, box.center))
         if shown and max((shown.min - long.aabb.min).max(), (long.aabb.max - shown.max).max()) >= 0.04 * subject.size:
@@ -230,7 +230,7 @@ def _stretch_hull(subject: Subject) -> Planted | None:
     return None
 
 
-def _miss_hull(subject: Subject) -> Planted | None:
+def _miss_hull(subject: Subject) -> Defect | None:
     for hull in subject.hulls:
         others = [other.shape for other in subject.mesh.hulls if other is not hull]
         shown = subject.mesh.asset.visuals if subject.mesh.asset else ()
@@ -246,14 +246,14 @@ def _miss_hull(subject: Subject) -> Planted | None:
     return None
 
 
-def _miss_body(subject: Subject) -> Planted | None:
+def _miss_body(subject: Subject) -> Defect | None:
     for body, hulls in subject.bodies.items():
-        if len(subject.bodies) > 1 and subject.shown(body):
+        if len(subject.bodies) > 1 and subject.find_shown_box(body):
             return subject.put([], [hull.name for hull in hulls])
     return None
 
 
-def _float_hull(subject: Subject) -> Planted | None:
+def _float_hull(subject: Subject) -> Defect | None:
     for hull in subject.hulls:
         own = subject.bodies[hull.body]
         way = hull.shape.centroid - _box_of(own).center
@@ -267,13 +267,13 @@ def _float_hull(subject: Subject) -> Planted | None:
     return None
 
 
-def _double_hull(subject: Subject) -> Planted | None:
+def _double_hull(subject: Subject) -> Defect | None:
     hull = subject.hulls[0]
     planted = subject.put([replace(hull, name="again")])
     return replace(planted, hulls=planted.hulls | {hull.name})
 
 
-def _put_hull_within(subject: Subject) -> Planted | None:
+def _put_hull_within(subject: Subject) -> Defect | None:
     hull = subject.hulls[0]
     return subject.put([Hull("within", hull.body, _half(hull))])
 
@@ -282,7 +282,7 @@ def _half(hull: Hull) -> Shape:
     return hull.shape.transform(*_about(0.5 * np.eye(3), hull.shape.centroid))
 
 
-def _press_flat(subject: Subject) -> Planted | None:
+def _press_flat(subject: Subject) -> Defect | None:
     hull, linear = subject.hulls[0], np.eye(3)
     thin = int(hull.aabb.size.argmin())
     linear[thin, thin] = 0.001
@@ -290,7 +290,7 @@ def _press_flat(subject: Subject) -> Planted | None:
     return subject.put([replace(hull, shape=flat)])
 
 
-def _dent(subject: Subject) -> Planted | None:
+def _dent(subject: Subject) -> Defect | None:
     hull = subject.hulls[0].shape.tessellate()
     corners = hull.vertices[hull.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -303,7 +303,7 @@ def _dent(subject: Subject) -> Planted | None:
     return subject.put([replace(subject.hulls[0], shape=Polytope(np.vstack([hull.vertices, pit]), faces))])
 
 
-def _topple(subject: Subject) -> Planted | None:
+def _topple(subject: Subject) -> Defect | None:
     box = _box_of(subject.mesh.hulls)
     if len(subject.bodies) > 1:
         return None
@@ -321,10 +321,10 @@ def _topple(subject: Subject) -> Planted | None:
     return None
 
 
-def _lay_on_its_side(subject: Subject) -> Planted | None:
+def _lay_on_its_side(subject: Subject) -> Defect | None:
     for hull in subject.hulls:
         shape = hull.shape
-        if shape.kind in ("cylinder", "capsule") and subject.shown(hull.body):
+        if shape.kind in ("cylinder", "capsule") and subject.find_shown_box(hull.body):
             pose = shape.pose  # type: ignore[attr-defined]
             along, across = (float(np.ptp(shape.vertices @ pose.rotation[:, k])) for k in (2, 0))
             if abs(along - across) >= max(0.25 * max(along, across), 0.04 * subject.size):
@@ -333,7 +333,7 @@ def _lay_on_its_side(subject: Subject) -> Planted | None:
     return None
 
 
-def _make_too_fine(subject: Subject) -> Planted | None:
+def _make_too_fine(subject: Subject) -> Defect | None:
     hull, k = subject.hulls[0], np.arange(500)
     height, turned = 1 - (2 * k + 1) / 500, np.pi * (1 + 5**0.5) * k
     ball = np.stack([np.cos(turned), np.sin(turned), height], axis=1)
@@ -367,24 +367,24 @@ DEFECTS: Mapping[str, Plant] = {
 """By the names of the plan; those of files are in `files`."""
 
 
-def _turn_order(subject: Subject) -> Planted:
-    return Planted(subject.put(subject.mesh.hulls[::-1]).mesh)
+def _turn_order(subject: Subject) -> Defect:
+    return Defect(subject.put(subject.mesh.hulls[::-1]).mesh)
 
 
-def _cut_in_two(subject: Subject) -> Planted | None:
+def _cut_in_two(subject: Subject) -> Defect | None:
     hull = max(subject.mesh.hulls, key=lambda one: one.volume)
     normal = np.eye(3)[int(hull.aabb.size.argmax())]
     halves = cut(hull.shape, hull.aabb.center, normal)
     if halves[0] is None or halves[1] is None:
         return None
     planted = subject.put([replace(hull, shape=halves[0]), Hull("other half", hull.body, halves[1])])
-    return Planted(planted.mesh)
+    return Defect(planted.mesh)
 
 
 def _transform_all(change: Callable[[Hull], Shape]) -> Plant:
-    def plant(subject: Subject) -> Planted:
+    def plant(subject: Subject) -> Defect:
         planted = subject.put([replace(hull, shape=change(hull)) for hull in subject.mesh.hulls])
-        return Planted(planted.mesh)
+        return Defect(planted.mesh)
 
     return plant
 
