@@ -137,7 +137,11 @@ def _try_goals(
         describe_goals(goals, found, accepted),
         {one.asset: {"goals": list_rows(one)} for one in found},
         have_failed(goals, found, accepted=accepted),
-        [case for one in found for case in batch.list_goal_cases(work.project.path(one.asset), one)],
+        [
+            case
+            for one in found
+            for case in batch.list_goal_cases(work.project.path(one.asset), one, accepted.get(one.asset, ()))
+        ],
     )
 
 

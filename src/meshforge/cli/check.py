@@ -136,7 +136,11 @@ def check(given: CheckArguments) -> None:
         name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
         page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)
     if given.sarif or given.junit:
-        cases = [case for job, outcome in done for case in batch.list_check_cases(job, outcome, measures.names)]
+        cases = [
+            case
+            for job, outcome in done
+            for case in batch.list_check_cases(job, outcome, measures.names, strict=given.strict)
+        ]
         batch.write_build_files(given.sarif, given.junit, "check", cases)
     if known and given.update_baseline:
         known.write(done, task)

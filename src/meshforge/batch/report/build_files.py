@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,8 +25,8 @@ _UNTRIED = "-untried"  # how rules end by which nothing was tried
 
 @dataclass(frozen=True, slots=True)
 class CheckCase:
-    """What one check, or goal, found of one asset. accepted: what a baseline has; skipped: why nothing, or not all, was
-    looked at, empty where all was."""
+    """What one check, or goal, found of one asset. accepted: what a baseline or a person has; skipped: why nothing, or
+    not all, was looked at, empty where all was; strict: whether warnings count as errors."""
 
     asset: str
     path: Path
@@ -34,17 +34,22 @@ class CheckCase:
     findings: tuple[Finding, ...] = ()
     accepted: frozenset[Finding] = frozenset()
     skipped: str = ""
+    strict: bool = False
 
     @property
     def errors(self) -> tuple[Finding, ...]:
-        """The errors that no baseline has."""
-        return tuple(one for one in self.findings if one.severity == "error" and one not in self.accepted)
+        """The errors that nobody accepted."""
+        return tuple(one for one in self._wrong if one not in self.accepted)
 
     @property
     def reason(self) -> str:
         """Why it has neither passed nor failed, empty where it has."""
-        known = [f"known: {one.message}" for one in self.findings if one.severity == "error"]
+        known = [f"known: {one.message}" for one in self._wrong]
         return "" if self.errors else "; ".join(filter(None, [self.skipped, *known]))
+
+    @property
+    def _wrong(self) -> tuple[Finding, ...]:
+        return tuple(one for one in self.findings if self.strict or one.severity == "error")
 
     def relate_to(self, base: Path) -> "CheckCase":
         """Return the same on every machine: paths in its messages count from a folder."""
@@ -58,8 +63,11 @@ class CheckCase:
         return relative_name(plain_path(self.path), base)
 
 
-def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]) -> Iterator[CheckCase]:
-    """Yield a case for each check of an asset, legality first; one alone where it could not be read."""
+def list_check_cases(
+    job: AssetJob, outcome: CheckOutcome, checks: Iterable[str], *, strict: bool = False
+) -> Iterator[CheckCase]:
+    """Yield a case for each check of an asset, legality first; one alone where it could not be read. strict: whether
+    warnings count as errors."""
     examined = outcome.examination
     physics = examined.get("physics", Physics) if examined else None
     for name in ("legality", *checks) if examined else ("read",):
@@ -68,18 +76,21 @@ def list_check_cases(job: AssetJob, outcome: CheckOutcome, checks: Iterable[str]
         still = [f"not simulated: {physics.refused}"] if name == "physics" and physics and not physics.rest else []
         reasons = [*untried, *still, examined.unmeasured.get(name, "") if examined else ""]
         reasons = [_UNCHANGED] if outcome.is_unchanged else reasons
-        yield CheckCase(job.id, job.path, name, findings, outcome.accepted, "; ".join(filter(None, reasons)))
+        yield CheckCase(job.id, job.path, name, findings, outcome.accepted, "; ".join(filter(None, reasons)), strict)
 
 
-def list_goal_cases(path: Path, found: AssetGoals) -> Iterator[CheckCase]:
-    """Yield a case for each goal that was tried on an asset, or one that it could not be read or edited."""
+def list_goal_cases(path: Path, found: AssetGoals, accepted: Collection[str] = ()) -> Iterator[CheckCase]:
+    """Yield a case for each goal that was tried on an asset, or one that it could not be read or edited. accepted:
+    texts of goals that a person accepted to fail there."""
     if found.error:
         yield CheckCase(found.asset, path, "goals", (Finding("unreadable", "error", (), found.error, "", "goals"),))
     for name, result in found.after.items():
         check, skipped = f"goal {name}", result.why if result.outcome == "untried" else ""
         severity: Severity = "warning" if skipped else "error"
         finding = Finding(f"goal-{result.outcome}", severity, result.hulls, f"{result.goal}: {result.why}", "", check)
-        yield CheckCase(found.asset, path, check, () if result.outcome == "passed" else (finding,), skipped=skipped)
+        findings = () if result.outcome == "passed" else (finding,)
+        known = frozenset(findings if result.goal in accepted else ())
+        yield CheckCase(found.asset, path, check, findings, known, skipped)
 
 
 def make_edit_case(
