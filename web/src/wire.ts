@@ -80,7 +80,6 @@ export interface Everything {
   ForecastJob: ForecastJob;
   Guess: Guess;
   Hello: Hello;
-  Hint: Hint;
   HistoryChanged: HistoryChanged;
   HistoryState: HistoryState;
   HullLabel: HullLabel;
@@ -1053,8 +1052,7 @@ export interface Operator {
  * are probably wrong.
  *
  * error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of
- * answers that no longer fit. sample: the assets whose results show best whether the program is right, best first;
- * overruled: those whose accepted result no program keeps.
+ * answers that no longer fit. overruled: assets whose accepted result no program keeps.
  */
 export interface OutcomeView {
   number: number;
@@ -1066,11 +1064,9 @@ export interface OutcomeView {
   candidates: CandidateView[];
   repairs: number;
   nearest: NearestView | null;
-  hint: Hint | null;
   why: string | null;
   advice: string[];
   stale: string[];
-  sample: string[];
   overruled: string[];
   error: string | null;
 }
@@ -1083,13 +1079,6 @@ export interface NearestView {
   asset: string;
   extra: string[];
   missing: string[];
-}
-/**
- * The asset that is best demonstrated next, and why, in a sentence.
- */
-export interface Hint {
-  asset: string;
-  why: string;
 }
 /**
  * What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or

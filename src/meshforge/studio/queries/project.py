@@ -48,7 +48,7 @@ def add_session(
         outdated=False,
         problem=problem,
         question=_find_question(assessment),
-        last_run=LastRun(outcome.status, outcome.repairs, near, outcome.sample) if outcome else None,
+        last_run=LastRun(outcome.status, outcome.repairs, near) if outcome else None,
         propagation=propagation,
     )
 

@@ -134,8 +134,6 @@ any price; demonstrations plus answers are 2.2 a task, 1.9 at a price of 0.5, 2.
 MAX_CHOICES = 3
 """A person compares so many pictures at once; "neither" stands for all other readings."""
 
-_NOTHING = 1e-9  # less harm than this is none
-
 
 class Preference(NamedTuple):
     """What a person said of a selection on a mesh, which no reading has to keep to.
@@ -225,12 +223,11 @@ class QuestionSplit:
 
     asset: its place; choices: places of the most believed reading of each choice, the most believed choice first; what
     the program does is one of them.
-    left: the expected harm that stays after the answer; spared: what the answer is worth, in demonstrations.
+    spared: what the answer is worth, in demonstrations.
     """
 
     asset: int
     choices: tuple[int, ...]
-    left: float
     spared: float
 
     @property
@@ -248,15 +245,10 @@ class QuestionValue:
         columns = [_number(column) for column in zip(*selections, strict=True)]
         self._kinds = np.array(columns, dtype=np.int64).reshape(-1, len(beliefs)).T
         self._beliefs = np.array(beliefs)
-        self.differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2) if columns else None
         self._costs: Floats | None = None  # of having one reading where another is meant, in demonstrations
-        if self.differs is not None:
-            self._costs = np.where(self.differs > 0, 1 + UNSEEN_COST * (1 - self.differs) ** SAMPLE_SEEN, 0.0)
-
-    @property
-    def harm(self) -> float:
-        """The expected share of assets that the program edits wrongly in this rule."""
-        return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
+        if columns:
+            differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2)
+            self._costs = np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
     def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
         """Return the question that spares most; of equals, the first.
@@ -267,28 +259,20 @@ class QuestionValue:
         splits = (split for asset in trust if (split := self._split(asset)))
         return min(splits, key=lambda one: (-round(one.spared * trust[one.asset], 12), one.asset), default=None)
 
-    def gains(self, first: int) -> dict[int, float]:
-        """Return how much harm an answer about each asset from `first` on would spare, where there is any."""
-        assets = range(first, self._kinds.shape[1])
-        found = {asset: self.harm - split.left for asset in assets if (split := self._split(asset))}
-        return {asset: gain for asset, gain in found.items() if gain > _NOTHING}
-
     def _split(self, asset: int) -> QuestionSplit | None:
-        assert self.differs is not None
         assert self._costs is not None
         kinds = self._kinds[:, asset]
         if not kinds.any():
             return None
-        choices_by_belief, left, spared = [], 0.0, float(self._beliefs @ self._costs[0])
+        choices_by_belief, spared = [], float(self._beliefs @ self._costs[0])
         for kind in range(int(kinds.max()) + 1):
             part = np.flatnonzero(kinds == kind)
             heads = part[np.argmax(self._beliefs[part])] if kind else 0
-            left += float(self._beliefs[part] @ self.differs[heads][part])
             spared -= float(self._beliefs[part] @ self._costs[heads][part])
             choices_by_belief.append((-float(self._beliefs[part].sum()), int(heads)))
         ours, *others = choices_by_belief
         choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
-        return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
+        return QuestionSplit(asset, tuple(head for _, head in choices), spared)
 
 
 def _number(column: Sequence[object]) -> list[int]:
