@@ -32,7 +32,7 @@ export type Event =
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob;
+export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | CheckJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -45,7 +45,6 @@ export interface Everything {
   ApplyJob: ApplyJob;
   Argument: Argument;
   ArgumentValue: ArgumentValue;
-  AskJob: AskJob;
   AssessmentChanged: AssessmentChanged;
   AssessmentView: AssessmentView;
   AssetView: AssetView;
@@ -77,7 +76,6 @@ export interface Everything {
   FindingView: FindingView;
   FolderEntry: FolderEntry;
   FolderView: FolderView;
-  ForecastJob: ForecastJob;
   Guess: Guess;
   Hello: Hello;
   HistoryChanged: HistoryChanged;
@@ -97,7 +95,6 @@ export interface Everything {
   LanguageView: LanguageView;
   ManualEditView: ManualEditView;
   Mark: Mark;
-  Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
   NearestView: NearestView;
@@ -493,14 +490,6 @@ export interface ApplyJob {
   kind: "apply";
   assets?: string[] | null;
   rebuild?: boolean;
-}
-/**
- * Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there.
- */
-export interface AskJob {
-  kind: "ask";
-  every_hull: boolean;
-  max_cost?: number | null;
 }
 /**
  * How sure the edits are now. assessment: null as soon as labels, answers or demonstrations changed, until that is
@@ -1097,7 +1086,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check";
+  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "check";
   title: string;
   done: number;
   total: number;
@@ -1189,14 +1178,6 @@ export interface FolderView {
   files: number;
 }
 /**
- * Work out what asking a model for labels would send and cost, without sending anything. every_hull: whether it is
- * asked about every hull, or about exemplars of which labels are propagated.
- */
-export interface ForecastJob {
-  kind: "forecast";
-  every_hull: boolean;
-}
-/**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.
  */
 export interface Guess {
@@ -1236,23 +1217,11 @@ export interface LabelJob {
 }
 /**
  * Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls
- * without a label have one in their name; model: the one that can be asked, null for none.
+ * without a label have one in their name.
  */
 export interface LabelSources {
   files: number;
   names: number;
-  model: Model | null;
-}
-/**
- * The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
- * cannot be asked, null where it can.
- */
-export interface Model {
-  name: string;
-  host: string;
-  every_hull: boolean;
-  max_cost?: number | null;
-  why?: string | null;
 }
 /**
  * An error at a place in a text; line, column: from 1.
