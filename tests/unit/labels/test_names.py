@@ -93,8 +93,8 @@ def test_what_a_name_says_and_how_surely(name: str, label: str, confidence: floa
 
 
 ALIKE = (
-    "geom7 12 backend legend handlebar hand solid template laptop stop feedback cupboard draw hdl adjustable chain shell flame "
-    "panes but topology outdoor collides seal"
+    "geom7 12 backend legend handlebar hand solid template laptop stop feedback cupboard adjustable chain shell flame "
+    "draw hdl panes but topology outdoor collides seal"
 )
 
 
