@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -188,16 +187,6 @@ class RankedCandidates:
         return range(1 + sum(belief >= BELIEVABLE for belief in self.beliefs[1:MAX_COMPARED]))
 
     @property
-    def compared(self) -> Sequence[int]:
-        """Places of the readings that are compared with the one that is taken."""
-        return range(1, min(len(self.terms), MAX_COMPARED))
-
-    @cached_property
-    def question_value(self) -> QuestionValue:
-        rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
-        return QuestionValue(rows, [self.beliefs[k] for k in self.believable])
-
-    @property
     def unambiguous(self) -> bool:
         """Whether all believable readings do the same on the whole batch; never where not all are known."""
         return self.consistent.complete and len(self.believable) == 1
@@ -212,9 +201,9 @@ class RankedCandidates:
 
         trust: places of the meshes that it may be about, with how much an answer about each is worth.
         """
-        return self.question_value.best_question(
-            {place: worth for place, worth in trust.items() if place >= len(self.examples)}
-        )
+        rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
+        value = QuestionValue(rows, [self.beliefs[k] for k in self.believable])
+        return value.best_question({place: worth for place, worth in trust.items() if place >= len(self.examples)})
 
 
 @dataclass(frozen=True, slots=True)
