@@ -13,6 +13,7 @@ from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.person import Person
 from benchmark.study.project import name_by_files, open_project
 from benchmark.study.propagation import HandLabels, begin_by_hand, label_by_hand
+from benchmark.study.sample import select_sample
 from benchmark.study.session import Round, Session
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
@@ -251,7 +252,7 @@ class Course:
         if self.log.accepted:
             return False
         guided = self.condition.guided
-        names = self._worth_a_look(outcome.sample) if guided else self.person.looks_at(self._showable())
+        names = self._worth_a_look(outcome) if guided else self.person.looks_at(self._showable())
         seen = self.person.sees(self.desk, program, names)
         looked_at = names[: names.index(seen[0])] if seen else names
         self.log.glances += len(looked_at) + (seen is not None)
@@ -272,8 +273,10 @@ class Course:
         self._show(name, rules)
         return True
 
-    def _worth_a_look(self, sample: Sequence[str]) -> list[str]:
-        """Those of the proposed meshes on which a person knows what is wanted, and may still show it."""
+    def _worth_a_look(self, outcome: LearningOutcome) -> list[str]:
+        """Those of a dozen telling meshes on which a person knows what is wanted, and may still show it."""
+        known = {*self.accepted, *(name for name, rules in self.given.items() if rules is None)}
+        sample = select_sample(outcome, self.desk.meshes, self.bench.task.program.labels, known)
         return [n for n in sample if n in self.able and (n not in self.log.shown or self.given.get(n) is not None)]
 
     def _accept(self, program: Program, names: Iterable[str]) -> None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.targets import extractors_of
+from benchmark.study.sample import select_sample
 from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, LearningOutcome, Repair, Step, synthesize
@@ -108,9 +109,10 @@ def test_answers_and_a_look_at_what_is_proposed_lead_to_what_is_meant_on_every_a
                     assert selected(meshes[answer.asset], rule.extractor) == answer.select
             amiss = [n for n, mesh in meshes.items() if select(rule.extractor, mesh) != select(meant, mesh)]
             at_once += not looks and not amiss
-            wrong = [n for n in outcome.sample if n in amiss]
+            sample = select_sample(outcome, meshes, VOCABULARIES[name], [*names, *(one.asset for one in seen)])
+            wrong = [n for n in sample if n in amiss]
             asked += len(answers) - len(seen)
-            seen = answers + [Answer(1, n, selected(meshes[n], meant)) for n in outcome.sample if n not in amiss]
+            seen = answers + [Answer(1, n, selected(meshes[n], meant)) for n in sample if n not in amiss]
             names, looks = [*names, *wrong[:1]], looks + 1
         right += not amiss
         demonstrated, rules = demonstrated + len(names), rules + 1

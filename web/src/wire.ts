@@ -33,7 +33,7 @@ export type Event =
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob;
+export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | CheckJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -46,7 +46,6 @@ export interface Everything {
   ApplyJob: ApplyJob;
   Argument: Argument;
   ArgumentValue: ArgumentValue;
-  AskJob: AskJob;
   AssessmentChanged: AssessmentChanged;
   AssessmentView: AssessmentView;
   AssetView: AssetView;
@@ -79,13 +78,11 @@ export interface Everything {
   FindingView: FindingView;
   FolderEntry: FolderEntry;
   FolderView: FolderView;
-  ForecastJob: ForecastJob;
   GoalCall: GoalCall;
   GoalResultView: GoalResultView;
   GoalView: GoalView;
   Guess: Guess;
   Hello: Hello;
-  Hint: Hint;
   HistoryChanged: HistoryChanged;
   HistoryState: HistoryState;
   HullLabel: HullLabel;
@@ -103,7 +100,6 @@ export interface Everything {
   LanguageView: LanguageView;
   ManualEditView: ManualEditView;
   Mark: Mark;
-  Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
   NearestView: NearestView;
@@ -511,14 +507,6 @@ export interface ApplyJob {
   kind: "apply";
   assets?: string[] | null;
   rebuild?: boolean;
-}
-/**
- * Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there.
- */
-export interface AskJob {
-  kind: "ask";
-  every_hull: boolean;
-  max_cost?: number | null;
 }
 /**
  * How sure the edits are now. assessment: null as soon as labels, answers or demonstrations changed, until that is
@@ -1110,8 +1098,7 @@ export interface Operator {
  * are probably wrong.
  *
  * error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of
- * answers that no longer fit. sample: the assets whose results show best whether the program is right, best first;
- * overruled: those whose accepted result no program keeps.
+ * answers that no longer fit. overruled: assets whose accepted result no program keeps.
  */
 export interface OutcomeView {
   number: number;
@@ -1123,11 +1110,9 @@ export interface OutcomeView {
   candidates: CandidateView[];
   repairs: number;
   nearest: NearestView | null;
-  hint: Hint | null;
   why: string | null;
   advice: string[];
   stale: string[];
-  sample: string[];
   overruled: string[];
   error: string | null;
 }
@@ -1140,13 +1125,6 @@ export interface NearestView {
   asset: string;
   extra: string[];
   missing: string[];
-}
-/**
- * The asset that is best demonstrated next, and why, in a sentence.
- */
-export interface Hint {
-  asset: string;
-  why: string;
 }
 /**
  * What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or
@@ -1165,7 +1143,7 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "forecast" | "ask" | "check" | "goal";
+  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "check" | "goal";
   title: string;
   done: number;
   total: number;
@@ -1267,14 +1245,6 @@ export interface FolderView {
   files: number;
 }
 /**
- * Work out what asking a model for labels would send and cost, without sending anything. every_hull: whether it is
- * asked about every hull, or about exemplars of which labels are propagated.
- */
-export interface ForecastJob {
-  kind: "forecast";
-  every_hull: boolean;
-}
-/**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.
  */
 export interface Guess {
@@ -1314,23 +1284,11 @@ export interface LabelJob {
 }
 /**
  * Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls
- * without a label have one in their name; model: the one that can be asked, null for none.
+ * without a label have one in their name.
  */
 export interface LabelSources {
   files: number;
   names: number;
-  model: Model | null;
-}
-/**
- * The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
- * cannot be asked, null where it can.
- */
-export interface Model {
-  name: string;
-  host: string;
-  every_hull: boolean;
-  max_cost?: number | null;
-  why?: string | null;
 }
 /**
  * An error at a place in a text; line, column: from 1.

@@ -40,7 +40,7 @@ class ReviewArguments:
     ] = False
     forget: Annotated[
         list[str] | None,
-        typer.Option("--forget", help="Only take back what has this id in that list, or `all`.", metavar="ID"),
+        typer.Option("--forget", help="Take back an ID of that list, the verdict on an asset, or `all`.", metavar="ID"),
     ] = None
     json: options.Json = False
 

@@ -30,6 +30,7 @@ from meshforge.project import Project, ProjectReview, format_review, run_with_ma
 from meshforge.rendering import Up, draw_before_after, make_contact_sheet, render, write_png
 from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import RIGHT, WRONG
+from meshforge.store import AnswerEvent, Event, ExclusionEvent, LabelFixEvent, SnoozeEvent, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class ReviewSession:
         while asked := next(((one, question) for one in waiting if (question := self._find(one))), None):
             waiting.remove(asked[0])
             self._reply(asked[1], asked[0].to_reply(asked[1]))
-        return sum(not self._reply_again(one) for one in waiting)
+        return sum(not self._is_known(one) for one in waiting)
 
     def _find(self, one: ScriptReply) -> ReviewQuestion | None:
         """The question that it replies to, if it is asked now with that choice, or was never replied to."""
@@ -62,8 +63,8 @@ class ReviewSession:
         is_gone = question and isinstance(one.choice, str) and question.choice(one.choice) is None
         return None if is_gone and one.question in self._project.feedback().replied else question
 
-    def _reply_again(self, one: ScriptReply) -> bool:
-        """Whether a reply to a question that is not asked now fits: as it was taken before, or in place of another."""
+    def _is_known(self, one: ScriptReply) -> bool:
+        """Whether a reply to a question that is not asked now was taken before, as it is."""
         before = self._project.feedback().replied.get(one.question)
         if before is None:
             remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
@@ -71,18 +72,13 @@ class ReviewSession:
         origin = before.origin
         question = question_of(origin.asked) if origin else None
         reply = one.to_reply(question) if question else None
-        if not (origin and question and reply) or reply.later or reply.to_json() == origin.reply:
+        if not (origin and reply) or reply.later or reply.to_json() == origin.reply:
             remark(f"{one.question}: it was replied to before")
             return True
-        try:
-            self._project.reply_again(question, reply)
-        except MeshForgeError as error:
-            remark(f"{one.question}: {error.message}")
-            return False
-        was, now = (json.dumps(row, ensure_ascii=False) for row in (origin.reply, reply.to_json()))
-        remark(f"{one.question}: {before.by or 'somebody'} said {was} before, now it is {now}: the last word counts")
-        self.found = self._look()
-        return True
+        earlier, folder = json.dumps(origin.reply, ensure_ascii=False), shlex.quote(str(self._project.folder))
+        remark(f"{one.question}: {before.by or 'somebody'} said {earlier} before, so the reply is skipped")
+        remark(f"  to change that: {_explain_change(before, folder)}")
+        return False
 
     def converse(self, by: str | None = None) -> None:
         """Ask at the terminal until nothing is left, or the person has enough; what is said is kept at once."""
@@ -114,6 +110,18 @@ class ReviewSession:
             show_it = f"meshforge demonstrate {word} {asset} 'HULLS => ACTION' ..."
             remark(f"{question.asset} needs review; to show what is meant there: {show_it}")
         self.found = self._look()
+
+
+def _explain_change(before: Event, folder: str) -> str:
+    match before:
+        case AnswerEvent() | LabelFixEvent():
+            return f"meshforge review {folder} --forget {shlex.quote(before.id)}"
+        case VerdictEvent() | ExclusionEvent():
+            return f"meshforge review {folder} --forget {shlex.quote(before.asset)}"
+        case SnoozeEvent():
+            return f"meshforge review {folder} --again"
+        case _:
+            return "its demonstration, its labels, or its hulls, by hand"
 
 
 def _ask(question: ReviewQuestion) -> ReviewReply | None:

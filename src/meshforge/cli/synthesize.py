@@ -177,37 +177,7 @@ def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: L
         yield f"all believable readings of the rules agree on {seen}"
     elif outcome.open_rule:
         yield f"ambiguous: it is open what rule {outcome.open_rule.rule} does on {outcome.open_rule.asset}"
-    yield from _list_assets(outcome)
-    if outcome.hint and not outcome.unambiguous:
-        yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
-
-
-def _list_assets(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
-    """The assets to look at, each once, with all reasons; those of the same reasons in one line."""
-    rows = [(asset, _OVERRULED) for asset in outcome.overruled]
-    if not (outcome.unambiguous or outcome.open_rule):
-        rows += _list_doubtful(outcome)
-    if outcome.hint and not outcome.unambiguous:
-        rows.append((outcome.hint.asset, f"demonstrate it to be more certain: {outcome.hint.why}"))
-    reasons, lines = dict[str, list[str]](), dict[str, list[str]]()
-    for asset, why in rows:
-        reasons.setdefault(asset, []).append(why)
-    for asset in () if outcome.unambiguous or outcome.open_rule else outcome.sample:
-        reasons.setdefault(asset, ["best to see whether the program is right"])
-    for asset, own in reasons.items():
-        lines.setdefault("; ".join(own), []).append(asset)
-    yield from ["Look first at:"] * bool(lines)
-    yield from (f"  {join_names(assets)}: {why}" for why, assets in lines.items())
-
-
-def _list_doubtful(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[tuple[str, str]]:
-    """The assets on which a reading that is not likely enough to ask about would do something else, and what."""
-    rules = dict[str, set[int]]()
-    for candidate in outcome.candidates:
-        for asset in candidate.differs_on if candidate.belief >= synthesis.BELIEVABLE else ():
-            rules.setdefault(asset, set()).add(candidate.rule)
-    for asset, own in sorted(rules.items()):
-        yield asset, f"rule{'s' * (len(own) > 1)} {join_names([*map(str, sorted(own))])} might mean something else"
+    yield from (f"{asset}: {_OVERRULED}" for asset in outcome.overruled)
 
 
 def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) -> Iterator[str]:

@@ -6,7 +6,7 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "codes": "CODES CODES_BY_RULE RuleCode",
-        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit note_limits",
+        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit",
         "shapes": "EngineShape ShapeComparison",
     },
 )

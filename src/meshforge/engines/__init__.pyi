@@ -10,6 +10,5 @@ from meshforge.engines.limits import Severity as Severity
 from meshforge.engines.limits import check_limits as check_limits
 from meshforge.engines.limits import find_engine as find_engine
 from meshforge.engines.limits import make_limit as make_limit
-from meshforge.engines.limits import note_limits as note_limits
 from meshforge.engines.shapes import EngineShape as EngineShape
 from meshforge.engines.shapes import ShapeComparison as ShapeComparison

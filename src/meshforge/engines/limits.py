@@ -1,10 +1,9 @@
 """Physics engines: what each limit measures of a hull, and what of a mesh is beyond them, as findings; the engines, as
-`engines.toml` has them, row by row, and notes on hulls that are written for them. `docs/engines.md` shows these, and a
-test holds the two together."""
+`engines.toml` has them, row by row. `docs/engines.md` shows these, and a test holds the two together."""
 
 import os
 import tomllib
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
@@ -151,7 +150,7 @@ def _check_names(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Findin
             yield Finding(f"{of}-name", "error", (name,) if is_hull else (), f"{name}: {problem}", remedy)
 
 
-def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Finding | None:
+def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull]) -> Finding | None:
     """Return the hulls that are meshes and beyond a limit; None where there are none."""
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
@@ -163,7 +162,7 @@ def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull | sy
     return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
 
 
-def check_primitives(engine: Engine, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Iterator[Finding]:
+def check_primitives(engine: Engine, hulls: Sequence[symbolic.Hull]) -> Iterator[Finding]:
     """Yield native shapes that the engine lacks."""
     names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
     if names:
@@ -220,26 +219,3 @@ def find_engine(name: str) -> Engine:
     if name not in ENGINES:
         raise UsageError(f"there is no engine {name!r}", remedy=suggest_among(name, ENGINES, "Known are:"))
     return ENGINES[name]
-
-
-def note_limits(
-    geoms: Iterable[symbolic.Geom], engines: Iterable[str], holds: Collection[symbolic.FeatureKind]
-) -> tuple[str, ...]:
-    """Return a note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the
-    remedy.
-
-    engines: by name; holds: what the format holds: a native shape that it does not counts as the mesh that stands for
-    it.
-    """
-    native = {kind for kind, what in symbolic.PRIMITIVE_FEATURES.items() if what in holds}
-    written = [
-        geom if geom.shape.kind in {"polytope", *native} else replace(geom, shape=geom.shape.tessellate())
-        for geom in geoms
-    ]
-    found: dict[str, tuple[Finding, list[str]]] = {}
-    for engine in map(ENGINES.__getitem__, engines):
-        limits = (limit for limit in engine.limits if limit.severity == "error")
-        broken = (finding for limit in limits if (finding := check_limit(engine, limit, written)))
-        for finding in (*broken, *check_primitives(engine, written)):
-            found.setdefault(finding.message, (finding, []))[1].append(engine.title)
-    return tuple(f"{' and '.join(titles)}: {one.message}. {one.remedy}" for one, titles in found.values())

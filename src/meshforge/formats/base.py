@@ -125,7 +125,6 @@ class Format(ABC):
     (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
     has_pictures: whether visuals are written with the pictures that are their base colours.
-    engines: those that read its files themselves, by name (`meshforge.engines`).
     """
 
     name: ClassVar[str]
@@ -139,7 +138,6 @@ class Format(ABC):
     instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
     has_pictures: ClassVar[bool] = False
-    engines: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -158,10 +156,6 @@ class Format(ABC):
     def can_write_back(self, asset: Asset) -> bool:
         """Return whether an asset was read from a file of this kind, so that `write` writes it back."""
         return asset.format == self.name
-
-    def engines_of(self, asset: Asset) -> tuple[str, ...]:
-        """Return the engines that an asset in this format is for: its own, or those by whose names it is marked."""
-        return self.engines
 
     def create(self, asset: Asset, name: str) -> Output:
         """Return the files of an asset that came from another format, as far as this one holds it."""

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, UsageError, plain_path, replace_atomically, write_atomically
-from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
 from meshforge.formats.engine_names import MarkName
@@ -82,8 +81,6 @@ def save(
         known = load_format("urdf.format:UrdfWithCapsules")
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
-    limits = _note_limits(asset, known, where, output.names)
-    report = replace(report, remarks=(*report.remarks, *limits))
     plan = _plan_files(output, out, known.is_folder)
     _refuse_overwrite(plan, asset, overwrite)
     extra = _find_extra_files(plan, out, overwrite) if known.is_folder else []
@@ -115,17 +112,6 @@ def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
     assert known is not None
     asset = _to_asset(mesh)
     return _make_output(asset, known, name, "keep", _place_collision(asset, known, None, None))[0]
-
-
-def _note_limits(asset: Asset, known: Format, place: Collision | None, names: Mapping[str, str]) -> tuple[str, ...]:
-    """What the engines of the file would refuse: of all hulls where they are written anew, else of those made.
-
-    names: those that hulls get in the file, where they change.
-    """
-    are_new = place is not None or not known.can_write_back(asset)
-    geoms = [geom for geom in asset.geoms if are_new or geom.parent is not None]
-    named = (replace(geom, name=names.get(geom.name, geom.name)) for geom in geoms)
-    return note_limits(named, known.engines_of(asset), known.holds)
 
 
 def _to_asset(what: SymbolicMesh | Asset) -> Asset:

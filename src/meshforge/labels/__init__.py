@@ -19,7 +19,7 @@ __getattr__, __all__ = export_lazily(
         "spans": "HullSpan SpanReport",
         "summary": "NameContradiction SourceTally Tally label_command tally_labels",
         "vlm.endpoint": "Endpoint approve_host check_approved describe_sending is_approved",
-        "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult check_vlm_settings forecast_vlm",
+        "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult forecast_vlm",
         "vlm.cost": "Usage",
     },
 )

@@ -46,6 +46,5 @@ from meshforge.labels.vlm.endpoint import is_approved as is_approved
 from meshforge.labels.vlm.label_by_vlm import VlmForecast as VlmForecast
 from meshforge.labels.vlm.label_by_vlm import VlmLabeler as VlmLabeler
 from meshforge.labels.vlm.label_by_vlm import VlmResult as VlmResult
-from meshforge.labels.vlm.label_by_vlm import check_vlm_settings as check_vlm_settings
 from meshforge.labels.vlm.label_by_vlm import forecast_vlm as forecast_vlm
 from meshforge.labels.vlm.cost import Usage as Usage

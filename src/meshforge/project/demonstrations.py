@@ -226,13 +226,18 @@ def reject(store: Store, wrong: synthesis.LabelFix, origin: Origin = NO_ORIGIN) 
 
 
 def take_back(store: Store, answer: str) -> str | None:
-    """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
+    """Take back an answer or a repair by its id, or what was said of the result of an asset; the hull of a confirmed
+    repair gets the label it had before.
 
     Gives a sentence where that label was changed since, and is left alone. Raises ProjectError, naming the nearest id,
     where there is no such one.
     """
     with store.lock():
-        kept = store.feedback().answers_and_fixes
+        feedback = store.feedback()
+        kept = feedback.answers_and_fixes
+        if answer in feedback.verdicts or answer in feedback.exclusions:
+            store.add_events(files.VerdictEvent(asset=answer), files.ExclusionEvent(asset=answer))
+            return None
         if answer not in kept:
             listing = f"See what was said: meshforge review {quote_path(store.folder)} --list-answers"
             remedy = suggest_name(answer, kept, listing)

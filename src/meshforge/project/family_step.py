@@ -244,11 +244,6 @@ def _review(state: FamilyState) -> NextStep | None:
         failing = [asset.id for asset in state.assets if any(goal.fails for goal in asset.result_status.goals)]
         text = f"Goals fail on {pluralize(len(failing), 'result')}: look at them, first {''.join(failing[:1])}."
         return _step(state, "review", text, "review", failing[0]) if failing else None
-    best = [asset for asset in (state.last_run.sample if state.last_run else ()) if asset in {one.id for one in left}]
-    if best and all(asset.result_status.probability is None for asset in left):
-        what = pluralize(len(best), "result that shows", "results that show")
-        text = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
-        return _step(state, "review", text, "review", best[0])
     least = min(left, key=lambda asset: asset.result_status.confidence)
     return _step(state, "review", f"{_count_open(state)}: look at them, first {least.id}.", "review", least.id)
 

@@ -20,7 +20,7 @@ from meshforge.project import (
     sign_offs,
     unprepare,
 )
-from meshforge.project.replies import reply_again, reply_to
+from meshforge.project.replies import reply_to
 from meshforge.project.review import review_project
 from meshforge.store import MeshCache, Store, add_assets, create_folder
 
@@ -127,6 +127,5 @@ class Project(Store):
     set_verdict = run.review_assets
     review = review_project
     reply = reply_to
-    reply_again = reply_again
     renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status

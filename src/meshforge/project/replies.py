@@ -10,7 +10,7 @@ from meshforge.labels import label_project, set_labels_of
 from meshforge.project import demonstrations, run
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
-from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store, VerdictEvent
+from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store
 from meshforge.synthesis import Answer, LabelFix
 
 
@@ -53,33 +53,6 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             _snooze(store, origin)
         case _:
             assert_never(question.kind)
-
-
-def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None:
-    """Take another reply to a question that was replied to before: the last word counts. A verdict is on the result as
-    it was then.
-
-    Raises ProjectError, with nothing kept, where what followed from the reply before is not undone by a reply.
-    """
-    before = store.feedback().replied.get(question.id)
-    choice, origin = find_choice(question, reply), Origin.of(question, reply)
-    match question.kind, before:
-        case (_, SnoozeEvent()) | ("candidate" | "label", _):
-            reply_to(store, question, reply)
-        case (("group" | "repair"), _) if reply.exceptions or (choice and choice.label):
-            reply_to(store, question, reply)
-        case "result", _ if choice and choice.id in EXCLUDE:
-            excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **origin._asdict())
-            store.add_events(VerdictEvent(asset=question.asset), excluded)
-        case "result", VerdictEvent() if choice:
-            run.revise_verdict(store, before, reply, origin, question.goals)
-            if reply.labels:
-                _agree_again(store)
-        case "result", ExclusionEvent() if choice:  # its result may be another one by now
-            store.add_events(ExclusionEvent(asset=question.asset, **origin._asdict()))
-        case _:
-            problem = f"question {question.id} was replied to before, and what followed from that stays"
-            raise ProjectError(problem, remedy="Change it by hand: its demonstration, its labels, or its hulls.")
 
 
 def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | None:

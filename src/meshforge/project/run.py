@@ -10,12 +10,11 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from types import MappingProxyType
 
-from meshforge import batch, language, signoff, symbolic, synthesis
+from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProjectError, quote_path, suggest_name
 from meshforge.geometry import digest
 from meshforge.labels.merge import set_labels_of
-from meshforge.signoff.question import WRONG
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 
 
@@ -185,22 +184,6 @@ def review_assets(
         more = [ExclusionEvent(asset=asset) for asset in names if asset in store.feedback().exclusions]
         given = dict.fromkeys(names, labels) if labels else {}
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
-
-
-def revise_verdict(
-    store: Store, before: VerdictEvent, reply: signoff.ReviewReply, origin: Origin, goals: tuple[str, ...] = ()
-) -> None:
-    """Give another verdict on the result that one was given on before; where it is right now, what the rules did there
-    is what they should do, and goals that fail do not count. Raises ProjectError, with nothing written: no such rule,
-    hull or label."""
-    verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
-    meant = before.seen if verdict == "accepted" else ()
-    if reply.selections:
-        meant = _replace_selections(store, before.asset, before.seen, reply.selections)
-    changes = {"verdict": verdict, "note": None, "meant": meant, "goals": goals if verdict == "accepted" else ()}
-    event = before.model_copy(update={**changes, **origin._asdict()})
-    given = {before.asset: reply.labels} if reply.labels else {}
-    store.add_events_before(lambda: set_labels_of(store, given), event)
 
 
 def _judge(

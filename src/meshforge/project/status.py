@@ -113,12 +113,11 @@ class PropagationState:
 @dataclass(frozen=True, slots=True)
 class LastRun:
     """The last learning run of this session. repairs: how many labels are probably wrong; nearest: the rule that
-    nothing fits, and an asset that shows what comes nearest; sample: the assets that show best whether it is right."""
+    nothing fits, and an asset that shows what comes nearest."""
 
     status: LearnStatus
     repairs: int = 0
     nearest: tuple[int, str] | None = None
-    sample: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

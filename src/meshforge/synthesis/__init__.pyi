@@ -3,7 +3,6 @@ from meshforge.synthesis.asset_selection import choose_first_demonstration as ch
 from meshforge.synthesis.demonstration import Answer as Answer
 from meshforge.synthesis.demonstration import Demonstration as Demonstration
 from meshforge.synthesis.demonstration import Example as Example
-from meshforge.synthesis.demonstration import Hint as Hint
 from meshforge.synthesis.demonstration import LabelFix as LabelFix
 from meshforge.synthesis.demonstration import OpenRule as OpenRule
 from meshforge.synthesis.demonstration import Repair as Repair
@@ -23,7 +22,6 @@ from meshforge.synthesis.outcome import NeedsRepair as NeedsRepair
 from meshforge.synthesis.outcome import NoProgram as NoProgram
 from meshforge.synthesis.outcome import TimedOut as TimedOut
 from meshforge.synthesis.outcome import outcome_to_json as outcome_to_json
-from meshforge.synthesis.candidates.rank import BELIEVABLE as BELIEVABLE
 from meshforge.synthesis.diagnosis import LikelyMistake as LikelyMistake
 from meshforge.synthesis.diagnosis import find_mistake as find_mistake
 from meshforge.synthesis.task import begin_replay as begin_replay

@@ -250,11 +250,3 @@ class Repair:
     rule: int
     belief: float
     why: str
-
-
-@dataclass(frozen=True, slots=True)
-class Hint:
-    """The asset that is best demonstrated next, and why, in a sentence."""
-
-    asset: str
-    why: str

@@ -10,7 +10,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Orient, Program, Rule, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
-from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
+from meshforge.synthesis.asset_selection import find_open_rule
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import (
     Answer,
@@ -189,17 +189,11 @@ class LearningRun:
     def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()
         _verify(program, task.demos, task.templates)
-        known = [(learned.candidates, learned.names) for learned in self._learned]
-        hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         suggested, common = self._suggest_alternative(), self._common_fields()
         if self._open_rule:
-            return outcome.Ambiguous(
-                program=program, open_rule=self._open_rule, hint=hint, sample=sample, suggested=suggested, **common
-            )
+            return outcome.Ambiguous(program=program, open_rule=self._open_rule, suggested=suggested, **common)
         unambiguous = bool(self._replays.others) and all(learned.candidates.unambiguous for learned in self._learned)
-        return outcome.Found(
-            program=program, unambiguous=unambiguous, hint=hint, sample=sample, suggested=suggested, **common
-        )
+        return outcome.Found(program=program, unambiguous=unambiguous, suggested=suggested, **common)
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = outcome.Nearest.of(spec.number, miss.nearest), self._repairs.repairs

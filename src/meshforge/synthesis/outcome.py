@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self
 
 from meshforge.language import Extractor, Program, Rule, show, size_of
-from meshforge.synthesis.demonstration import Answer, Hint, OpenRule, Repair
+from meshforge.synthesis.demonstration import Answer, OpenRule, Repair
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion
 from meshforge.synthesis.search.smallest import NearestExtractor, SearchEffort
 
@@ -55,10 +55,8 @@ class _OutcomeBase:
     rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
-    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
-    the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
-    keeps. suggested: an orientation that makes the rules simpler, or in which every rule has an extractor where now
-    some rule has none.
+    their asset or hulls are gone; overruled: assets whose result was accepted, which no program keeps. suggested: an
+    orientation that makes the rules simpler, or in which every rule has an extractor where now some rule has none.
     """
 
     rules: tuple[Rule, ...]
@@ -67,8 +65,6 @@ class _OutcomeBase:
     seconds: Mapping[str, float]
     unambiguous: bool = False
     stale: tuple[Answer, ...] = ()
-    hint: Hint | None = None
-    sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     open_rule: OpenRule | None = None
@@ -127,7 +123,7 @@ LearningOutcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut
 
 def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
     """Return the outcome as `synthesize --json` prints it."""
-    hint, one = outcome.hint, outcome.open_rule
+    one = outcome.open_rule
     asked = one and {"rule": one.rule, "asset": one.asset, "selections": [sorted(some) for some in one.selections]}
     return {
         "status": outcome.status,
@@ -137,8 +133,6 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
         "repairs": [_repair_json(repair) for repair in outcome.repairs],
         "open_rule": asked,
         "nearest": _nearest_json(outcome.nearest) if outcome.nearest else None,
-        "demonstrate_next": hint and {"asset": hint.asset, "why": hint.why},
-        "look_at": list(outcome.sample),
         "overruled": list(outcome.overruled),
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
         **({"why": outcome.why, "advice": list(outcome.advice)} if isinstance(outcome, NoProgram) else {}),

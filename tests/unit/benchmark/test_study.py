@@ -10,11 +10,15 @@ import pytest
 from benchmark.assets import CATEGORIES, SEPARATE, family, samples
 from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Bench, Session, open_bench, teach_task
 from benchmark.study.client import TaskClient
-from benchmark.study.condition import KIND, PROPAGATED, SYSTEMATIC
+from benchmark.study.condition import KIND, PROPAGATED, SEEN, SYSTEMATIC
 from benchmark.study.keystrokes import GLANCE, count_acts, model_seconds
 from benchmark.study.labels import ACCURACY, AFFECTED, FEW, MOST, count_wrong, mislabel, noisy
 from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand, label_by_hand
+from benchmark.study.sample import select_sample
+from meshforge.synthesis import synthesize
+from tests.synthesis_boxes import boxes
+from tests.synthesis_cupboards import cupboards, shown
 from tests.unit.benchmark.conftest import few
 
 
@@ -115,3 +119,16 @@ def test_systematic_errors_call_one_kind_of_part_by_one_wrong_name_in_a_third_of
         affected = [name for name in having if confused in pairs[name]]
         assert len(affected) == max(round(AFFECTED * len(having)), 1)
         assert all((confused[0], confused[0]) not in pairs[name] for name in affected)
+
+
+def test_a_guided_person_sees_every_believable_candidate_fail_and_then_what_is_unlike_all_before() -> None:
+    meshes = cupboards(40, every=8)
+    outcome = synthesize(shown(meshes, ["c0"], "Is(handle) => Delete"), meshes)
+    sample = select_sample(outcome, meshes, ("body", "drawer", "handle"), ["c0"])
+    assert len(set(sample) - {"c0"}) == len(sample) == SEEN
+    for one in outcome.candidates:
+        assert not one.differs_on or one.belief < 0.005 or set(one.differs_on) & set(sample)
+    plain = {f"p{k}": boxes(("a", "body", (0, 0, 0), (1, 1, 1))) for k in range(20)}
+    odd = {"odd": boxes(("a", "body", (0, 0, 0), (1, 1, 1)), ("b", "lid", (0, 0, 1), (1, 1, 1)))}
+    outcome = synthesize(shown(plain, ["p0"], "Is(body) => Delete"), plain | odd)
+    assert select_sample(outcome, plain | odd, ("body", "lid"), ["p0"])[0] == "odd"

@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 
 from meshforge.engines import ENGINES, Engine
-from meshforge.formats import list_formats
 
 PAGE = Path(__file__).parents[3] / "docs" / "engines.md"
 
@@ -32,13 +31,3 @@ def test_the_page_shows_each_limit_with_its_source(engine: Engine) -> None:
     start = lines.index(f"## {engine.title}")
     table = [line for line in lines[start + 1 : start + 5 + len(rows(engine))] if line.startswith("| `")]
     assert table == rows(engine)
-
-
-def test_the_page_names_the_engines_that_each_format_is_written_for() -> None:
-    text = PAGE.read_text("utf-8")
-    read_by_engines = [known for known in list_formats() if known.engines and known.writable]
-    assert {known.name for known in read_by_engines} == {"urdf", "mjcf", "sdf", "usd"}
-    for known in read_by_engines:
-        listed = ", ".join(ENGINES[name].title.split(" (")[0] for name in known.engines)
-        listed = listed.replace("PhysX on the CPU, PhysX on the GPU", "PhysX on the CPU and on the GPU")
-        assert f"| {known.title} | {listed} |" in text

@@ -80,11 +80,9 @@ def test_plurals_are_the_same_word(one: str, several: str) -> None:
         ("drwr_1", "drawer", 0.6),
         ("hndl", "handle", 0.6),
         ("pnl", "panel", 0.6),
-        ("hanlde", "handle", 0.55),
-        ("drawwer", "drawer", 0.55),
-        ("pannel", "panel", 0.55),
-        ("draw1", "drawer", 0.45),
-        ("hdl", "handle", 0.45),
+        ("hanlde", "handle", 0.45),
+        ("drawwer", "drawer", 0.45),
+        ("pannel", "panel", 0.45),
         ("hamdle", "handle", 0.45),
     ],
 )
@@ -96,7 +94,7 @@ def test_what_a_name_says_and_how_surely(name: str, label: str, confidence: floa
 
 ALIKE = (
     "geom7 12 backend legend handlebar hand solid template laptop stop feedback cupboard adjustable chain shell flame "
-    "panes but topology outdoor collides seal"
+    "draw hdl panes but topology outdoor collides seal"
 )
 
 

@@ -31,10 +31,10 @@ def test_names_are_put_together_by_label_and_by_what_says_so(tmp_path: Path) -> 
 
 
 def test_what_is_less_sure_has_a_row_of_its_own(tmp_path: Path) -> None:
-    project = named(tmp_path, "drawer", base=("draw1", "drwr"))
+    project = named(tmp_path, "drawer", base=("drawr1", "drwr"))
     sure, unsure = project.label("names", dry_run=True).proposals.rows
     assert (sure.kind, sure.names, sure.is_unsure) == ("hull nearly", ("drwr",), False)
-    assert (unsure.kind, unsure.names, unsure.is_unsure) == ("hull nearly", ("draw1",), True)
+    assert (unsure.kind, unsure.names, unsure.is_unsure) == ("hull nearly", ("drawr1",), True)
 
 
 def numbers(rows: tuple[Proposal, ...]) -> int:

@@ -1,5 +1,5 @@
-"""Two people reply otherwise to one question, one after the other: the last word counts, and both are shown. What every
-kind of reply does to the probabilities of a family, by `Project.reply` and by `review --answers`."""
+"""Two people reply otherwise to one question, one after the other: the first word counts until it is taken back. What
+every kind of reply does to the probabilities of a family, by `Project.reply` and by `review --answers`."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from tests.unit.project.replying import (
     probabilities,
     reply_by_method,
     review_once,
-    write,
 )
+from tests.unit.project.shelves import SHELVED
 
 
 class Place(NamedTuple):
@@ -64,75 +64,49 @@ def place(
 
 
 PAIRS = (
-    ("right", "wrong"),
-    ("right", "wrong, other hulls"),
-    ("right", "wrong, other labels"),
-    ("right", "not solved"),
-    ("later", "right"),
-    ("later", "wrong"),
-    ("a group is what it is called", "a group is something else"),
-    ("a group is something else", "a group is what it is called"),
-    ("a group is what it is called", "one of a group is something else"),
-    ("the reading that stands out", "another reading"),
-    ("another reading", "none of the readings"),
-    ("none of the readings", "the reading that stands out"),
-    ("no slip", "a slip"),
-    ("not turned", "turned"),
+    ("right", "wrong", f"--forget {ASKED}"),
+    ("wrong, other hulls", "right", f"--forget {ASKED}"),
+    ("not solved", "right", f"--forget {ASKED}"),
+    ("later", "right", "--again"),
+    ("the reading that stands out", "another reading", f"--forget 1:{SHELVED}"),
 )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("first", "last"), PAIRS)
-def test_the_last_word_counts_as_if_it_were_the_only_one(place: Callable[[Case], Place], first: str, last: str) -> None:
+@pytest.mark.parametrize(("first", "last", "way"), PAIRS)
+def test_another_reply_to_a_question_counts_once_the_one_before_is_taken_back(
+    place: Callable[[Case], Place], first: str, last: str, way: str
+) -> None:
     alone = place(CASES[last])
     alone.say(CASES[last].reply, "Ada")
     both = place(CASES[first])
     both.say(CASES[first].reply, "Ada")
+    before = both.project.layout.events.read_bytes()
     told = both.say(CASES[last].reply, "Bob")
-    assert (sums(look(both.project)), told.code) == (sums(look(alone.project)), told.code)
-    assert f"{both.question}: Ada said {{" in told.err and "the last word counts" in told.err
-    if last != "wrong":  # after which it is asked what is right
-        again = both.say(CASES[last].reply, "Bob")
-        assert f"{both.question}: it was replied to before" in again.err
+    assert told.code == 1 and f"{both.question}: Ada said {{" in told.err and "so the reply is skipped" in told.err
+    assert f"to change that: meshforge review {both.project.folder} {way}\n" in told.err
+    assert both.project.layout.events.read_bytes() == before
+    assert f"{both.question}: it was replied to before" in both.say(CASES[first].reply, "Ada").err
+    both.run("review", both.project.folder.name, *way.split())
+    told = both.say(CASES[last].reply, "Bob")
+    assert "is skipped" not in told.err
+    assert sums(look(both.project)) == sums(look(alone.project))
 
 
 STAYS = (("a slip", "no slip"), ("turned", "not turned"), ("a group is something else", "none of the labels"))
 
 
 @pytest.mark.parametrize(("first", "last"), STAYS)
-def test_what_a_reply_cannot_undo_stays_and_that_is_said(place: Callable[[Case], Place], first: str, last: str) -> None:
+def test_what_lies_in_other_files_is_changed_by_hand_and_that_is_said(
+    place: Callable[[Case], Place], first: str, last: str
+) -> None:
     both = place(CASES[first])
     both.say(CASES[first].reply, "Ada")
     before, events = sums(look(both.project)), both.project.layout.events.read_bytes()
     told = both.say({"choice": None} if last not in CASES else CASES[last].reply, "Bob")
-    assert told.code == 1 and "was replied to before, and what followed from that stays" in told.err
-    assert "Change it by hand" in told.err
+    assert told.code == 1 and "so the reply is skipped" in told.err
+    assert "to change that: its demonstration, its labels, or its hulls, by hand" in told.err
     assert (sums(look(both.project)), both.project.layout.events.read_bytes()) == (before, events)
-
-
-def test_a_result_that_was_called_wrong_is_right_after_all(place: Callable[[Case], Place]) -> None:
-    alone, both = place(CASES["right"]), place(CASES["wrong"])
-    alone.say(CASES["right"].reply, "Ada")
-    both.say(CASES["wrong, other hulls"].reply, "Ada")
-    shown = both.project.feedback().verdict_on(ASKED)
-    told = both.say(CASES["right"].reply, "Bob")
-    assert 'said {"choice": "wrong", "selections": {"1": ' in told.err
-    last = both.project.feedback().verdict_on(ASKED)
-    assert shown and last and (last.by, last.verdict, last.meant) == ("Bob", "accepted", shown.seen)
-    assert ASKED in look(both.project).assessment.signed_off
-    write(both.project)
-    write(alone.project)
-    edited = [one.project.layout.edited / ASKED for one in (alone, both)]
-    assert edited[0].read_bytes() == edited[1].read_bytes()
-
-
-def test_who_includes_an_asset_again_is_asked_about_it(place: Callable[[Case], Place]) -> None:
-    both = place(CASES["not solved"])
-    both.say(CASES["not solved"].reply, "Ada")
-    assert look(both.project).assessment.excluded == {ASKED: "not solved"}
-    both.say(CASES["right"].reply, "Bob")
-    found = look(both.project)
-    assert not found.assessment.excluded and ASKED in found.assessment.need_review
 
 
 def sums(found: ProjectReview) -> object:

@@ -83,23 +83,6 @@ def test_the_step_names_the_asset_to_go_to() -> None:
     assert choose(DONE, **FOUND).asset == "a"
 
 
-def test_the_results_that_show_most_are_reviewed_first_as_far_as_nobody_did() -> None:
-    rows = {name: replace(DONE, id=name) for name in "abcd"}
-
-    def step_with(*accepted: str) -> NextStep:
-        seen = [
-            replace(row, result_status=ResultStatus(state="signed off")) if row.id in accepted else row
-            for row in rows.values()
-        ]
-        return choose(*seen, has_program=True, last_run=LastRun("found", sample=("d", "gone", "b", "c")))
-
-    assert step_with().text == "Look at 3 results that show best whether the program is right, first d."
-    assert step_with("d").text == "Look at 2 results that show best whether the program is right, first b."
-    assert step_with("d", "b").text == "Look at 1 result that shows best whether the program is right: c."
-    assert step_with("d", "b", "c").text == "1 of 4 results needs review: look at them, first a."
-    assert step_with(*rows).kind == "export"
-
-
 def test_a_run_without_a_program_leads_to_what_came_nearest() -> None:
     step = choose(SHOWN, last_run=LastRun("none", nearest=(2, "b")))
     assert (step.kind, step.asset) == ("learn", "b")

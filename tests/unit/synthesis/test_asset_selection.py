@@ -1,4 +1,4 @@
-"""What a person is asked, and which asset is best demonstrated next. Which mesh is best demonstrated first."""
+"""What a person is asked, and which mesh is best demonstrated first."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from collections.abc import Mapping, Sequence
 import pytest
 
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Ambiguous, Found, Hint, LearningOutcome, Options, choose_first_demonstration, synthesize
+from meshforge.synthesis import Ambiguous, Found, LearningOutcome, Options, choose_first_demonstration, synthesize
 from tests.program_parts import parse_orient
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
-
-ALIKE = "believable readings of the rules differ there"
 
 
 def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> LearningOutcome:
@@ -69,31 +67,6 @@ def test_a_faint_doubt_is_reported_but_not_asked_about() -> None:
     assert isinstance(outcome, Found)
     assert max(reading.belief for reading in outcome.candidates if reading.differs_on == ("odd",)) > 0.03
     assert not outcome.unambiguous
-
-
-def test_where_readings_differ_the_asset_that_tells_most_is_best_demonstrated() -> None:
-    outcome = learned(cupboards(), ["c0"], "Is(handle) => Delete")
-    assert outcome.hint == Hint("c7", ALIKE)
-
-
-def test_what_all_rules_gain_counts_together() -> None:
-    meshes = {"plain": cupboard(), "door": cupboard(True), "feet": cupboard(False, 2), "both": cupboard(True, 2)}
-    outcome = learned(meshes, ["plain"], "Is(handle) => Delete\nDiff(All, Is(drawer)) => Delete\n")
-    assert outcome.hint == Hint("both", ALIKE)
-
-
-@pytest.mark.parametrize(("more", "why"), [
-    (0, None),
-    (1, "it has 1 hull unlike any that was demonstrated"),
-    (2, "it has 2 hulls unlike any that was demonstrated"),
-])  # fmt: skip
-def test_where_readings_agree_the_asset_with_most_hulls_unlike_those_shown_is_named(more: int, why: str | None) -> None:
-    first = [("a", "x", (0, 0, 0), (1, 1, 1)), ("b", "y", (3, 0, 0), (1, 1, 1))]
-    new = [(f"n{k}", f"new {k}", (3, 5, 5 * k), (1, 1, 1)) for k in range(more)]
-    meshes = {"first": boxes(*first), "same": boxes(*first), "other": boxes(*first, *new)}
-    demos = shown(meshes, ["first"], "Is(y) => Delete")
-    outcome = synthesize(demos, meshes, options=Options(layers="S", above=0, repair=False))
-    assert outcome.hint == (Hint("other", why) if why else None)
 
 
 WORDS = ("body", "drawer", "handle", "door", "foot")

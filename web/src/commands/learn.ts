@@ -59,13 +59,4 @@ export const learnCommands = commandsOf("Learn", [
     enabled: () => project().learning,
     run: () => void stopLearning(),
   },
-  {
-    id: "learn-hint",
-    title: "Demonstrate the asset that helps most",
-    enabled: () => project().outcome?.hint != null,
-    run: () => {
-      const hint = project().outcome?.hint;
-      if (hint) demonstrate(hint.asset);
-    },
-  },
 ]);

@@ -79,7 +79,7 @@ export function startCorrection(asset: string): void {
 
 export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-manual-edits", asset });
 
-const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().outcome?.sample ?? []);
+const queue = (): readonly string[] => reviewQueue(cardsInOrder());
 
 function nextOf(asset: string | null): string | null {
   return nextInQueue(queue(), useProject.getState().order, asset);

@@ -21,7 +21,7 @@ const project = { ...emptyProject.project, vocabulary };
 beforeEach(() => {
   useProject.setState({ ...emptyProject, project, order: ["a", "b"], cards: { a: whole, b: bare } }, true);
   useWorkspace.setState(initialWorkspace, true);
-  useLabelSources.setState({ files: 0, names: 0, model: null });
+  useLabelSources.setState({ files: 0, names: 0 });
   useToasts.setState({ toasts: [] });
 });
 

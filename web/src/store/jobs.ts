@@ -40,18 +40,17 @@ export async function saveEdits(): Promise<void> {
   await pendingEdits();
 }
 
-/** Begins a job once the edits before it are saved, and gives its id; null where it cannot be begun. */
-async function requestJob(request: JobRequest): Promise<string | null> {
+/** Begins a job once the edits before it are saved; whether it could be begun. */
+async function startJob(request: JobRequest): Promise<boolean> {
   await saveEdits();
   try {
-    return (await api.startJob(request)).id;
+    await api.startJob(request);
+    return true;
   } catch (error) {
     reportError(error);
-    return null;
+    return false;
   }
 }
-
-const startJob = async (request: JobRequest): Promise<boolean> => (await requestJob(request)) !== null;
 
 const applyJob = (assets: readonly string[] | null): JobRequest => ({
   kind: "apply",
@@ -75,13 +74,6 @@ export function whyNotRebuild(): string | null {
 
 /** Rebuilds the bodies of all assets of which a hull spans parts, or only finds these hulls. */
 export const rebuildBodies = (dry_run: boolean): Promise<boolean> => startJob({ kind: "rebuild", dry_run });
-
-/** Finds out what asking the model would send and cost; gives the id of the job. */
-export const forecastModel = (every_hull: boolean): Promise<string | null> =>
-  requestJob({ kind: "forecast", every_hull });
-
-export const askModel = (every_hull: boolean, max_cost: number | null): Promise<boolean> =>
-  startJob({ kind: "ask", every_hull, max_cost });
 
 export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, signed_only });

@@ -1,4 +1,4 @@
-// Where labels could come from besides the hulls that have one: files beside the assets, names, and a model.
+// Where labels could come from besides the hulls that have one: files beside the assets, and names.
 import { useEffect } from "react";
 import { create } from "zustand";
 import { api } from "../server/api";
@@ -6,10 +6,10 @@ import type { LabelSources } from "../wire";
 import { countReadable, useProject } from "./project";
 import { reportError } from "./toasts";
 
-export const useLabelSources = create<LabelSources>()(() => ({ files: 0, names: 0, model: null }));
+export const useLabelSources = create<LabelSources>()(() => ({ files: 0, names: 0 }));
 
 /** Asks how much there is, anew when labels or assets change, and as more assets are read. */
-export function useFreshSources(): LabelSources {
+export function useFreshSources(): void {
   const vocabulary = useProject((state) => state.project.vocabulary);
   const assets = useProject((state) => state.order.length);
   const read = useProject((state) => countReadable(state.cards));
@@ -24,5 +24,4 @@ export function useFreshSources(): LabelSources {
       clearTimeout(timer);
     };
   }, [vocabulary, assets, read, labelled]);
-  return useLabelSources();
 }

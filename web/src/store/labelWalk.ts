@@ -66,7 +66,7 @@ export function placeInWalk(cards: Cards, asset: string, own: readonly { name: s
 let current: (Place & { hull: string }) | null = null;
 
 const isLabelling = (jobs: readonly Job[]): boolean =>
-  jobs.some(({ kind, state }) => (kind === "label" || kind === "ask") && state === "running");
+  jobs.some(({ kind, state }) => kind === "label" && state === "running");
 
 // it begins anew where all labels are others
 useProject.subscribe((now, before) => {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditHeader, HullView } from "../wire";
-import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard, sampleRow } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -37,20 +37,11 @@ describe("results in groups", () => {
       wrong: ["d"],
       flagged: ["e"],
       stale: ["f"],
-      informative: [],
       open: ["b"],
       accepted: ["a"],
       none: ["g", "h"],
       excluded: [],
     });
-  });
-
-  it("keeps those that tell most apart, the most informative first, and only where nobody reviewed them", () => {
-    const rows = groupCards([...family, card("x"), card("y")], ["y", "gone", "a", "c", "e", "f", "g", "b"]);
-    const names = (group: Group) => rows[group].map((one) => one.asset);
-    expect([names("informative"), names("open")]).toEqual([["y", "b"], ["x"]]);
-    const rest = groupCards(family);
-    for (const group of ["failed", "wrong", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
   });
 
   it("takes an accepted result for accepted although something was left out", () => {
@@ -70,13 +61,7 @@ describe("the queue of what wants a look", () => {
   const order = family.map((one) => one.asset);
 
   it("has what failed first, then what is wrong or flagged, then what nobody reviewed", () => {
-    expect(reviewQueue(family, [])).toEqual(["c", "d", "e", "b"]);
-  });
-
-  it("has those that tell most ahead of all others that nobody reviewed", () => {
-    const queue = reviewQueue([...family, card("x"), card("y")], ["y", "x"]);
-    expect(queue).toEqual(["c", "d", "e", "y", "x", "b"]);
-    expect([nextInQueue(queue, [...order, "x", "y"], "y"), nextInQueue(queue, [...order, "x", "y"], "x")]).toEqual(["x", "b"]);
+    expect(reviewQueue(family)).toEqual(["c", "d", "e", "b"]);
   });
 
   it("goes round", () => {

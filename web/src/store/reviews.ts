@@ -4,35 +4,33 @@ import { api } from "../server/api";
 import type { Card, ConfidenceView, EditHeader, HullView } from "../wire";
 import { failingGoals, hasOpenGoals } from "./goals";
 
-export type Group = "failed" | "wrong" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none" | "excluded";
+export type Group = "failed" | "wrong" | "flagged" | "stale" | "open" | "accepted" | "none" | "excluded";
 
 /** In the order in which they want a look. */
-export const GROUPS: readonly Group[] = ["failed", "wrong", "flagged", "stale", "informative", "open", "accepted", "none", "excluded"];
+export const GROUPS: readonly Group[] = ["failed", "wrong", "flagged", "stale", "open", "accepted", "none", "excluded"];
 
-/** Where the result of an asset belongs; sample: the assets whose results tell best whether the program is right. */
-export function groupOf(card: Card, sample: readonly string[] = []): Group {
+/** Where the result of an asset belongs. */
+export function groupOf(card: Card): Group {
   if (card.excluded) return "excluded";
   if (card.output === "failed") return card.stale.length ? "stale" : "failed";
   if (card.output === "none") return "none";
   if (card.review === "wrong") return "wrong";
   if ((card.flags.length > 0 && card.review === null) || failingGoals(card).length) return "flagged";
   if (card.stale.length) return "stale";
-  if (card.review === "accepted") return "accepted";
-  return sample.includes(card.asset) ? "informative" : "open";
+  return card.review === "accepted" ? "accepted" : "open";
 }
 
-/** The cards by group, in the family's order; those that tell most, in the order of the sample. */
-export function groupCards(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
+/** The cards by group, in the family's order. */
+export function groupCards(cards: readonly Card[]): Readonly<Record<Group, readonly Card[]>> {
   const rows = Object.fromEntries(GROUPS.map((group) => [group, []])) as unknown as Record<Group, Card[]>;
-  for (const card of cards) rows[groupOf(card, sample)].push(card);
-  rows.informative.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
+  for (const card of cards) rows[groupOf(card)].push(card);
   return rows;
 }
 
-/** Assets that want a look: what failed, is wrong or flagged first, then those that nobody reviewed, the most informative ahead. */
-export function reviewQueue(cards: readonly Card[], sample: readonly string[]): readonly string[] {
-  const { failed, wrong, flagged, informative, open } = groupCards(cards, sample);
-  return [...failed, ...wrong, ...flagged, ...informative, ...open].map((card) => card.asset);
+/** Assets that want a look: what failed, is wrong or flagged first, then those that nobody reviewed. */
+export function reviewQueue(cards: readonly Card[]): readonly string[] {
+  const { failed, wrong, flagged, open } = groupCards(cards);
+  return [...failed, ...wrong, ...flagged, ...open].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */

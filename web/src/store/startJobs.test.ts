@@ -5,12 +5,10 @@ import { ServerProblem } from "../server/http";
 import type { Job } from "../wire";
 import {
   applyTo,
-  askModel,
   cancelJob,
   checkAll,
   exportTo,
   rebuildBodies,
-  forecastModel,
   labelAll,
   makeHulls,
   whyNotApply,
@@ -45,9 +43,8 @@ describe("a job", () => {
     await checkAll();
     await rebuildBodies(true);
     await exportTo("out", true);
-    await askModel(true, 2.5);
     makeHulls(["a"]);
-    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(8));
+    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(7));
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
       { kind: "apply", assets: ["a"], rebuild: true },
@@ -55,22 +52,19 @@ describe("a job", () => {
       { kind: "check" },
       { kind: "rebuild", dry_run: true },
       { kind: "export", folder: "out", signed_only: true },
-      { kind: "ask", every_hull: true, max_cost: 2.5 },
       { kind: "decompose", assets: ["a"] },
     ]);
   });
 
-  it("that begins says so, and a forecast gives its number", async () => {
+  it("that begins says so", async () => {
     expect(await applyTo(null)).toBe(true);
-    expect(await forecastModel(false)).toBe("apply");
   });
 
   it("that cannot begin is reported with its remedy", async () => {
     vi.mocked(api.startJob).mockRejectedValue(refusal);
     expect(await applyTo(null)).toBe(false);
-    expect(await forecastModel(false)).toBeNull();
     makeHulls(["a"]);
-    await vi.waitFor(() => expect(toasts()).toHaveLength(3));
+    await vi.waitFor(() => expect(toasts()).toHaveLength(2));
     expect(toasts()[0]).toEqual(["another job runs", "Stop it."]);
   });
 

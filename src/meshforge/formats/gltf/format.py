@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import ClassVar
 
 from meshforge.common import AssetError
-from meshforge.engines import ENGINES
 from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
@@ -55,10 +54,6 @@ class GltfFormat(SceneFormat):
 
         return create.create_gltf(asset, name)
 
-    def engines_of(self, asset: Asset) -> tuple[str, ...]:
-        marks = asset.document.convention if isinstance(asset.document, GltfDocument) else ""
-        return (marks,) if marks in ENGINES and self.can_write_back(asset) else self.engines
-
     def features(self, asset: Asset) -> Iterable[Feature]:
         if not isinstance(asset.document, GltfDocument):
             return ()
@@ -99,7 +94,7 @@ class EngineGltf(GltfFormat):
     engine: ClassVar[CollisionNames]
 
     def __init_subclass__(cls) -> None:
-        name, cls.engines, cls.holds = cls.engine.title, (cls.engine.engine,), cls.engine.holds
+        name, cls.holds = cls.engine.title, cls.engine.holds
         cls.convention = cls.engine.engine
         cls.title, cls.marks, cls.instead = f"glTF for {name}", f"under names for {name}", fallbacks_of(cls.engine)
 

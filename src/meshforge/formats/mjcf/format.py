@@ -28,7 +28,6 @@ class MjcfFormat(base.Format):
     """MuJoCo's own format for models."""
 
     name = "mjcf"
-    engines = ("mujoco",)
     suffixes = (".xml", ".mjcf")
     is_description = True
     title = "MJCF"

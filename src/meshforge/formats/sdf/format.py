@@ -19,7 +19,6 @@ class SdfFormat(base.Format):
     """The Simulation Description Format, of Gazebo."""
 
     name = "sdf"
-    engines = ("bullet",)
     suffixes = (".sdf",)
     is_description = True
     title = "SDF"

@@ -28,7 +28,6 @@ class UrdfFormat(base.Format):
     """The Unified Robot Description Format; has_capsules: whether it is written with them."""
 
     name = "urdf"
-    engines = ("mujoco", "bullet")
     suffixes = (".urdf",)
     is_description = True
     title = "URDF"

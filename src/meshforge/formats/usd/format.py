@@ -24,7 +24,6 @@ class UsdFormat(base.SceneFormat):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
     name = "usd"
-    engines = ("physx-cpu", "physx-gpu")
     title = "USD"
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"

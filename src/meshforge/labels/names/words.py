@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Container, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
@@ -13,12 +14,12 @@ _LEAST_PART = 3  # letters of a word that is joined with others
 
 EXACT = 0.7
 """How sure a label is whose word is in a name: names are given by people, though not for this."""
-_VOWELLESS, _TYPO, _SYNONYM, _GUESS = 0.6, 0.55, 0.5, 0.45
+_VOWELLESS, _SYNONYM, _GUESS = 0.6, 0.5, 0.45
 WordKind = Literal["word", "synonym", "likeness"]
 _KINDS: dict[float, WordKind] = {EXACT: "word", _SYNONYM: "synonym"}
 _VOWELS = frozenset("aeiou")
 _LEAST_LETTERS = 3  # letters of a shortened word, and of a label that may be shortened one more
-_LONG = 6  # letters of a word in which any one letter may be wrong; in shorter ones that makes other words
+_LIKE = 0.8  # share of letters that a misspelt word has in common with the one that is meant, as difflib counts them
 
 
 def words_of(name: str) -> Words:
@@ -121,9 +122,8 @@ def word_similarity(word: str, meant: str) -> float:
         return 0.0
     if word == _consonants_of(meant):
         return _VOWELLESS
-    if _is_typo(word, meant):
-        return _TYPO
-    return _GUESS if _is_short_for(word, meant) or _is_misspelt(word, meant) else 0.0
+    is_near = len(word) > _LEAST_LETTERS and SequenceMatcher(None, word, meant, False).ratio() > _LIKE
+    return _GUESS if is_near else 0.0
 
 
 def is_synonym(word: str, meant: str) -> bool:
@@ -135,34 +135,6 @@ def _consonants_of(word: str) -> str:
     """A word without its vowels, and without the second of two letters that are the same: `bottle` is `btl`."""
     kept = [letter for letter in word if letter not in _VOWELS]
     return "".join(letter for before, letter in pairwise(["", *kept]) if letter != before)
-
-
-def _is_typo(word: str, meant: str) -> bool:
-    """Whether two letters that follow each other are exchanged, or one is doubled or should be."""
-    if len(meant) <= _LEAST_LETTERS + 1:
-        return False
-    swapped = (meant[:k] + meant[k + 1] + meant[k] + meant[k + 2 :] for k in range(1, len(meant) - 1))
-    return word in swapped or _drop_doubles(word) == _drop_doubles(meant)
-
-
-def _drop_doubles(word: str) -> str:
-    return "".join(letter for before, letter in pairwise(["", *word]) if letter != before)
-
-
-def _is_short_for(word: str, meant: str) -> bool:
-    """Whether a word is the beginning of another, four letters at least, or most of its consonants in order."""
-    if meant.startswith(word):
-        return len(word) > _LEAST_LETTERS and 2 * len(word) >= len(meant)
-    letters = iter(_consonants_of(meant))
-    consonants = _VOWELS.isdisjoint(word) and all(letter in letters for letter in word)
-    return consonants and 5 * len(word) >= 3 * len(_consonants_of(meant))
-
-
-def _is_misspelt(word: str, meant: str) -> bool:
-    if len(meant) < _LONG or abs(len(word) - len(meant)) > 1:
-        return False
-    same = next((k for k, (a, b) in enumerate(zip(word, meant, strict=False)) if a != b), min(len(word), len(meant)))
-    return any(word[same + i :] == meant[same + j :] for i, j in ((1, 1), (0, 1), (1, 0)))
 
 
 UNSURE = 0.45

@@ -23,17 +23,6 @@ _LIKE_UNKNOWN = "the model does not know hulls that are like it"
 _WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
-def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str], typed: Collection[str] = ()) -> None:
-    """Raise UsageError where nothing could be asked: no model, no key, no approval, or no vocabulary.
-
-    typed: addresses that the user typed for this run, who thereby approves them.
-    """
-    endpoint = Endpoint(settings)
-    endpoint.key()
-    check_approved(endpoint, typed)
-    PromptConfig(tuple(vocabulary), settings)
-
-
 @dataclass(frozen=True, slots=True)
 class VlmResult:
     """How asking a model went. usage: what was asked, and its cost.

@@ -21,7 +21,6 @@ from meshforge.studio.edits.assets import AddAssets, AddTemplate
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.jobs import start_job
 from meshforge.studio.queries import assets, goals, packets, programs
-from meshforge.studio.queries.project import model_of
 from meshforge.studio.session.session import Session
 from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
@@ -261,7 +260,7 @@ def cancel_job(session: CurrentSession, id: BodyText) -> Job:
 def get_label_sources(session: CurrentSession) -> requests.LabelSources:
     """Return where labels could come from, as far as assets are read by now."""
     offered = session.offers.of(session.project, session.pages.readable)
-    return requests.LabelSources(files=len(offered.files), names=offered.named, model=model_of(session.project))
+    return requests.LabelSources(files=len(offered.files), names=offered.named)
 
 
 @router.put("/api/templates")

@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from meshforge.studio.jobs.outputs import start_apply, start_check, start_export, start_goal
-from meshforge.studio.jobs.preparation import start_ask, start_decompose, start_forecast, start_label, start_rebuild
+from meshforge.studio.jobs.preparation import start_decompose, start_label, start_rebuild
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire import jobs as wire
 
@@ -21,10 +21,6 @@ def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
             return start_export(session, request)
         case wire.LabelJob():
             return start_label(session)
-        case wire.ForecastJob():
-            return start_forecast(session, request)
-        case wire.AskJob():
-            return start_ask(session, request)
         case wire.CheckJob():
             return start_check(session) if request.goal is None else start_goal(session, request.goal)
         case _:

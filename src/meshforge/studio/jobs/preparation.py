@@ -1,21 +1,17 @@
-"""Jobs before the program runs: decomposing, labelling, and asking a model (and what that would cost)."""
+"""Jobs before the program runs: decomposing, rebuilding, and labelling."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from typing import Literal
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
-from meshforge.common import MeshForgeError, format_share, join_names, pluralize, relative_name
+from meshforge.common import format_share, pluralize, relative_name
 from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import (
     LabelOutcome,
     LabelResult,
     Tally,
-    VlmForecast,
-    VlmLabeler,
-    VlmResult,
-    check_vlm_settings,
 )
 from meshforge.project import (
     MADE_ANEW,
@@ -28,10 +24,10 @@ from meshforge.project import (
     read_piece_engine,
     read_preparation_plan,
 )
-from meshforge.store import ConflictError, Layout, VlmSettings
+from meshforge.store import ConflictError, Layout
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
-from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine, RebuildJob
+from meshforge.studio.wire.jobs import DecomposeJob, Job, JobLine, RebuildJob
 
 
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
@@ -173,80 +169,9 @@ def _describe_labels(result: LabelResult, tally: Tally) -> Iterator[str]:
     yield from (f"{note}." for note in result.notes)
 
 
-def start_forecast(session: Session, request: ForecastJob) -> Job:
-    """Start to find out what asking would send and cost. Raises MeshForgeError where nothing can be asked."""
-    project = session.project
-    settings = _check_settings(session, request)
-
-    def work(progress: JobProgress) -> str:
-        found = project.forecast_vlm(settings, progress=progress.advance, stop=progress.is_stopped)
-        progress.raise_if_stopped()
-        return _describe_forecast(found)
-
-    title = f"What asking {settings.model} would cost"
-    return session.jobs.start("forecast", title, len(project.assets()), work, stays="nothing was sent.")
-
-
-def start_ask(session: Session, request: AskJob) -> Job:
-    """Start to ask. Raises MeshForgeError where nothing can be asked."""
-    project = session.project
-    settings = _check_settings(session, request)
-    if request.max_cost is not None:
-        settings = settings.model_copy(update={"max_cost": request.max_cost})
-
-    title, edit = f"labels from {settings.model}", {"kind": "label-vlm", "model": settings.model}
-
-    def record(best: str | None) -> AbstractContextManager[object]:
-        files = [file.path(project.folder) for file in (Layout.labels, Layout.label_sources)]
-        return session.record(title, edit, files, uuid4().hex)
-
-    def work(progress: JobProgress) -> str:
-        labeler, execution = VlmLabeler(settings), ExecutionOptions(0, stop=progress.is_stopped)
-        result = project.label(labeler, execution=execution, stage=progress.stage, write_block=record)
-        found = labeler.result
-        for outcome in result.outcomes:
-            bare = list(outcome.open)
-            progress.add_line(_labels_line(outcome, [f"none for {join_names(bare, most=3)}"] if bare else []))
-        text = _describe_answers(result, found)
-        if found.ended and not progress.is_stopped():
-            raise MeshForgeError(f"The asking ended early: {found.ended}", remedy=text)
-        return text
-
-    return session.jobs.start(
-        "ask", f"Asking {settings.model}", len(project.assets()), work, stays="nothing was asked."
-    )
-
-
-def _check_settings(session: Session, request: ForecastJob | AskJob) -> VlmSettings:
-    """The settings of the project with what is asked about, checked before anything long starts."""
-    settings = session.project.settings.vlm.model_copy(update={"every_hull": request.every_hull})
-    check_vlm_settings(settings, session.project.vocabulary)
-    return settings
-
-
-def _describe_forecast(found: VlmForecast) -> str:
-    fresh = found.questions - found.known
-    if not fresh:
-        return "Every question has its answer already: asking again costs nothing."
-    known = f", {found.known} more are answered already" if found.known else ""
-    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
-    sent = f"{pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')} to {found.host}{known}"
-    return f"{sent}; about {found.input:,} tokens: {cost}."
-
-
 def _labels_line(report: LabelOutcome, notes: list[str]) -> JobLine:
     """What became of the labels of one asset; notes: what to say besides how many were taken."""
     if report.problems:
         return JobLine(asset=report.asset, status="failed", text="; ".join(report.problems))
     text = ", ".join([pluralize(report.taken, "label"), *notes])
     return JobLine(asset=report.asset, status="done" if report.taken else "unchanged", text=text)
-
-
-def _describe_answers(result: LabelResult, found: VlmResult) -> str:
-    taken, spent = sum(outcome.taken for outcome in result.outcomes), found.usage
-    bare = sum(len(outcome.open) for outcome in result.outcomes)
-    cost = f"{spent.usage.input + spent.usage.output:,} tokens" if spent.cost is None else f"${spent.cost:.4f}"
-    parts = [f"{pluralize(taken, 'label')} taken"]
-    parts += [f"{pluralize(bare, 'hull')} left without"] if bare else []
-    parts += [f"{pluralize(len(found.unasked), 'asset')} not asked about"] if found.unasked else []
-    return f"{', '.join(parts)}; {cost}."

@@ -30,11 +30,9 @@ def build_outcome_view(number: int, outcome: synthesis.LearningOutcome, looked_a
         candidates=tuple(map(wire.CandidateView.model_validate, outcome.candidates)),
         repairs=len(outcome.repairs),
         nearest=wire.NearestView.model_validate(outcome.nearest) if outcome.nearest else None,
-        hint=outcome.hint,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
-        sample=() if outcome.unambiguous else outcome.sample,
         overruled=outcome.overruled,
     )
 

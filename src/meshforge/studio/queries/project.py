@@ -2,10 +2,8 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from importlib.util import find_spec
 
-from meshforge.common import MeshForgeError, pluralize
-from meshforge.labels import Endpoint, check_vlm_settings
+from meshforge.common import pluralize
 from meshforge.language import BaseExtractor, Is, Orient, explain, show_label
 from meshforge.project import (
     NO_LABEL,
@@ -24,7 +22,6 @@ from meshforge.studio.queries.assets import output_picture_digest, picture_diges
 from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import OutcomeView, ProgramView
 from meshforge.symbolic import NO_PART, Label, is_class_name
 from meshforge.synthesis import Step
@@ -49,7 +46,7 @@ def add_session(
         outdated=False,
         problem=problem,
         question=_find_question(assessment),
-        last_run=LastRun(outcome.status, outcome.repairs, near, outcome.sample) if outcome else None,
+        last_run=LastRun(outcome.status, outcome.repairs, near) if outcome else None,
         propagation=propagation,
     )
 
@@ -194,22 +191,3 @@ def _place_of(label: Label | None, places: Mapping[str, int]) -> int:
     if label is None:
         return NO_LABEL
     return wire.NO_PART if label.name == NO_PART else places.get(label.name, NO_LABEL)
-
-
-def model_of(project: Project) -> Model | None:
-    """Return the model that can be asked for labels; None where the settings name none, or cannot be read."""
-    try:
-        settings = project.settings.vlm
-    except MeshForgeError:
-        return None
-    if not settings.model:
-        return None
-    host, why = "", None
-    try:
-        host = Endpoint(settings).host
-        check_vlm_settings(settings, project.vocabulary)
-    except MeshForgeError as error:
-        why = error.message
-    if find_spec("openai") is None:
-        why = "This needs the extra: pip install 'meshforge[vlm]'"
-    return Model(name=settings.model, host=host, every_hull=settings.every_hull, max_cost=settings.max_cost, why=why)

@@ -5,9 +5,7 @@ from typing import Literal
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
-JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "forecast", "ask", "check", "goal"]
-
-
+JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "check", "goal"]
 JobStatus = Literal["done", "edited", "unchanged", "failed", "skipped"]
 
 
@@ -82,22 +80,6 @@ class LabelJob(Wire):
     kind: Literal["label"] = "label"
 
 
-class ForecastJob(Wire):
-    """Work out what asking a model for labels would send and cost, without sending anything. every_hull: whether it is
-    asked about every hull, or about exemplars of which labels are propagated."""
-
-    kind: Literal["forecast"] = "forecast"
-    every_hull: bool
-
-
-class AskJob(Wire):
-    """Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there."""
-
-    kind: Literal["ask"] = "ask"
-    every_hull: bool
-    max_cost: float | None = None
-
-
 class CheckJob(Wire):
     """Run all checks on the outputs of all assets, or try a goal on them that is not kept."""
 
@@ -105,15 +87,4 @@ class CheckJob(Wire):
     goal: str | None = None
 
 
-JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | ForecastJob | AskJob | CheckJob
-
-
-class Model(Wire):
-    """The model that can be asked for labels. every_hull, max_cost: as set in meshforge.toml; why: the reason that it
-    cannot be asked, null where it can."""
-
-    name: str
-    host: str
-    every_hull: bool
-    max_cost: float | None = None
-    why: str | None = None
+JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | CheckJob

@@ -7,7 +7,6 @@ from pydantic import BeforeValidator, Field
 from meshforge.language import ActionIcon, explain, show
 from meshforge.project import LearnStatus
 from meshforge.studio.wire import Wire
-from meshforge.synthesis import Hint
 
 ArgumentKind = Literal[
     "words", "flag", "file", "shape", "factor", "length", "option", "text", "share", "label", "base", "extractor"
@@ -114,8 +113,7 @@ class OutcomeView(Wire):
     are probably wrong.
 
     error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of
-    answers that no longer fit. sample: the assets whose results show best whether the program is right, best first;
-    overruled: those whose accepted result no program keeps.
+    answers that no longer fit. overruled: assets whose accepted result no program keeps.
     """
 
     number: int
@@ -127,11 +125,9 @@ class OutcomeView(Wire):
     candidates: tuple[CandidateView, ...] = ()
     repairs: int = 0
     nearest: NearestView | None = None
-    hint: Hint | None = None
     why: str | None = None
     advice: tuple[str, ...] = ()
     stale: tuple[str, ...] = ()
-    sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()
     error: str | None = None
 

@@ -1,7 +1,6 @@
 """Requests of the page besides edits and jobs, and the short responses."""
 
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import ActionCall
 
 
@@ -78,8 +77,7 @@ class EditReceipt(Wire):
 
 class LabelSources(Wire):
     """Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls
-    without a label have one in their name; model: the one that can be asked, null for none."""
+    without a label have one in their name."""
 
     files: int
     names: int
-    model: Model | None

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -134,8 +133,6 @@ any price; demonstrations plus answers are 2.2 a task, 1.9 at a price of 0.5, 2.
 MAX_CHOICES = 3
 """A person compares so many pictures at once; "neither" stands for all other readings."""
 
-_NOTHING = 1e-9  # less harm than this is none
-
 
 class Preference(NamedTuple):
     """What a person said of a selection on a mesh, which no reading has to keep to.
@@ -190,16 +187,6 @@ class RankedCandidates:
         return range(1 + sum(belief >= BELIEVABLE for belief in self.beliefs[1:MAX_COMPARED]))
 
     @property
-    def compared(self) -> Sequence[int]:
-        """Places of the readings that are compared with the one that is taken."""
-        return range(1, min(len(self.terms), MAX_COMPARED))
-
-    @cached_property
-    def question_value(self) -> QuestionValue:
-        rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
-        return QuestionValue(rows, [self.beliefs[k] for k in self.believable])
-
-    @property
     def unambiguous(self) -> bool:
         """Whether all believable readings do the same on the whole batch; never where not all are known."""
         return self.consistent.complete and len(self.believable) == 1
@@ -214,9 +201,9 @@ class RankedCandidates:
 
         trust: places of the meshes that it may be about, with how much an answer about each is worth.
         """
-        return self.question_value.best_question(
-            {place: worth for place, worth in trust.items() if place >= len(self.examples)}
-        )
+        rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
+        value = QuestionValue(rows, [self.beliefs[k] for k in self.believable])
+        return value.best_question({place: worth for place, worth in trust.items() if place >= len(self.examples)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,12 +212,11 @@ class QuestionSplit:
 
     asset: its place; choices: places of the most believed reading of each choice, the most believed choice first; what
     the program does is one of them.
-    left: the expected harm that stays after the answer; spared: what the answer is worth, in demonstrations.
+    spared: what the answer is worth, in demonstrations.
     """
 
     asset: int
     choices: tuple[int, ...]
-    left: float
     spared: float
 
     @property
@@ -248,15 +234,10 @@ class QuestionValue:
         columns = [_number(column) for column in zip(*selections, strict=True)]
         self._kinds = np.array(columns, dtype=np.int64).reshape(-1, len(beliefs)).T
         self._beliefs = np.array(beliefs)
-        self.differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2) if columns else None
         self._costs: Floats | None = None  # of having one reading where another is meant, in demonstrations
-        if self.differs is not None:
-            self._costs = np.where(self.differs > 0, 1 + UNSEEN_COST * (1 - self.differs) ** SAMPLE_SEEN, 0.0)
-
-    @property
-    def harm(self) -> float:
-        """The expected share of assets that the program edits wrongly in this rule."""
-        return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
+        if columns:
+            differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2)
+            self._costs = np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
     def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
         """Return the question that spares most; of equals, the first.
@@ -267,28 +248,20 @@ class QuestionValue:
         splits = (split for asset in trust if (split := self._split(asset)))
         return min(splits, key=lambda one: (-round(one.spared * trust[one.asset], 12), one.asset), default=None)
 
-    def gains(self, first: int) -> dict[int, float]:
-        """Return how much harm an answer about each asset from `first` on would spare, where there is any."""
-        assets = range(first, self._kinds.shape[1])
-        found = {asset: self.harm - split.left for asset in assets if (split := self._split(asset))}
-        return {asset: gain for asset, gain in found.items() if gain > _NOTHING}
-
     def _split(self, asset: int) -> QuestionSplit | None:
-        assert self.differs is not None
         assert self._costs is not None
         kinds = self._kinds[:, asset]
         if not kinds.any():
             return None
-        choices_by_belief, left, spared = [], 0.0, float(self._beliefs @ self._costs[0])
+        choices_by_belief, spared = [], float(self._beliefs @ self._costs[0])
         for kind in range(int(kinds.max()) + 1):
             part = np.flatnonzero(kinds == kind)
             heads = part[np.argmax(self._beliefs[part])] if kind else 0
-            left += float(self._beliefs[part] @ self.differs[heads][part])
             spared -= float(self._beliefs[part] @ self._costs[heads][part])
             choices_by_belief.append((-float(self._beliefs[part].sum()), int(heads)))
         ours, *others = choices_by_belief
         choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
-        return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
+        return QuestionSplit(asset, tuple(head for _, head in choices), spared)
 
 
 def _number(column: Sequence[object]) -> list[int]:

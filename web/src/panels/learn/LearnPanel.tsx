@@ -1,6 +1,5 @@
 // The learn stage: how learning stands, what is asked, and the program rule by rule.
 import {
-  ArrowRight,
   Check,
   CircleAlert,
   CircleHelp,
@@ -12,8 +11,7 @@ import {
   Square,
   X,
 } from "lucide-react";
-import { demonstrate, learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
-import { openQuestion } from "../../store/assessment";
+import { learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { openGoals } from "../../store/goals";
 import { countReadable, useProject } from "../../store/project";
@@ -22,7 +20,7 @@ import { Doubts } from "../../family/Sureness";
 import { countText, listText, shortName } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import type { Hint, OutcomeView, NearestView, AnswerView } from "../../wire";
+import type { OutcomeView, NearestView, AnswerView } from "../../wire";
 import css from "./learn.module.css";
 import { ProgramSection } from "./Program";
 import { Questions } from "../questions/Questions";
@@ -30,7 +28,6 @@ import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
   const outcome = useProject((state) => state.outcome);
-  const asked = useProject((state) => openQuestion(state)?.kind);
   return (
     <>
       <LearnHead />
@@ -38,7 +35,6 @@ export function LearnPanel() {
       {outcome && <NoProgram outcome={outcome} />}
       <OpenDoubts />
       <ProgramSection />
-      {outcome?.hint && asked !== "demonstrate" && <NextDemonstration hint={outcome.hint} />}
       <AnswerList />
     </>
   );
@@ -104,23 +100,6 @@ const MOOD_ICONS: Record<Summary["mood"], typeof Check> = {
   warn: CircleHelp,
   bad: CircleAlert,
 };
-
-/** Which asset is best demonstrated next. */
-function NextDemonstration({ hint }: { hint: Hint }) {
-  return (
-    <Section title="Next demonstration">
-      <div className={css.split}>
-        <p>
-          Demonstrate next: <strong title={hint.asset}>{shortName(hint.asset)}</strong>
-          <span className={css.dim}> ({hint.why})</span>
-        </p>
-        <Button icon={ArrowRight} aria-label={`Go and demonstrate ${hint.asset}`} onClick={() => demonstrate(hint.asset)}>
-          Go
-        </Button>
-      </div>
-    </Section>
-  );
-}
 
 const ANSWER_ICONS = { answer: MessageCircleReply, confirmed: Check, rejected: X } as const;
 const KINDS = { answer: "Answer", confirmed: "Repair accepted", rejected: "Repair rejected" } as const;

@@ -30,7 +30,6 @@ const HEADS: Readonly<Record<Group, string>> = {
   wrong: "Wrong",
   flagged: "Flagged",
   stale: "Not up to date",
-  informative: "Look at these first",
   open: "Not reviewed",
   accepted: "Accepted",
   none: "Not applied yet",
@@ -44,8 +43,7 @@ export function Results({ onOpen }: { onOpen: () => void }) {
   const order = useProject((state) => state.order);
   const inOrder = useMemo(() => order.flatMap((asset) => cards[asset] ?? []), [order, cards]);
   const confidence = useProject((state) => state.confidence);
-  const sample = useProject((state) => state.outcome?.sample);
-  const lines = useMemo(() => linesOf(inOrder, sample ?? []), [inOrder, sample]);
+  const lines = useMemo(() => linesOf(inOrder), [inOrder]);
   return (
     <div className={css.results}>
       <div className={css.family}>
@@ -107,8 +105,8 @@ function AcceptLegal({ count }: { count: number }) {
   );
 }
 
-function linesOf(cards: readonly Card[], sample: readonly string[]): Line[] {
-  const groups = groupCards(cards, sample);
+function linesOf(cards: readonly Card[]): Line[] {
+  const groups = groupCards(cards);
   return GROUPS.flatMap((group) => {
     const rows = groups[group];
     if (!rows.length) return [];
