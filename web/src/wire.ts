@@ -18,8 +18,7 @@ export type AnyEdit =
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
-  | DropManualEdits
-  | RemoveAssets;
+  | DropManualEdits;
 export type Event =
   | Start
   | Hello
@@ -126,7 +125,6 @@ export interface Everything {
   Reason: Reason;
   RebuildJob: RebuildJob;
   RecentProject: RecentProject;
-  RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
   ReplyToQuestion: ReplyToQuestion;
   ReviewAssets: ReviewAssets;
@@ -478,13 +476,6 @@ export interface CorrectByHand {
 export interface DropManualEdits {
   asset: string;
   kind: "drop-manual-edits";
-}
-/**
- * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.
- */
-export interface RemoveAssets {
-  kind: "remove-assets";
-  ids: string[];
 }
 /**
  * Run the program on all assets, or on some; those that are new are prepared before. rebuild: whether bodies of
