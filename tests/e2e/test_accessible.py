@@ -39,7 +39,7 @@ def _press(*keys: str) -> Callable[[Hand], None]:
 
 def _open_menu(person: Hand) -> None:
     person.press("Escape")
-    person.click(person.page.get_by_role("button", name="Leave out or remove"))
+    person.click(person.page.get_by_role("button", name="Leave out the open asset"))
 
 
 PASSING: dict[str, Callable[[Hand], None]] = {

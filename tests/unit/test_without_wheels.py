@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from meshforge.checks import CheckOptions, examine_mesh
-from meshforge.cli.main import load_command
 from meshforge.common import MeshForgeError
 from meshforge.formats import load, read
 from meshforge.geometry import Box, Pose
@@ -36,20 +35,3 @@ def test_without_mujoco_mjcf_and_physics_are_errors_that_name_it(
     with pytest.raises(MeshForgeError, match="the check of physics needs MuJoCo, which is not installed"):
         examine_mesh(mesh, CheckOptions(("physics",)))
     assert examine_mesh(mesh, CheckOptions(("mujoco",))).findings
-
-
-@pytest.mark.parametrize("is_there", [True, False])
-def test_a_typer_that_works_otherwise_inside_reads_what_is_typed(
-    is_there: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    if not is_there:
-        monkeypatch.delattr("typer._coercion.RuntimeParam")
-    command = load_command("info")
-    with command.make_context("info", [str(tmp_path / "a.obj"), "--json"]) as context:
-        assert context.params["json"] is True and tmp_path / "a.obj" in map(Path, map(str, context.params.values()))
-    plain = [
-        type(getattr(one, "_runtime_param", None)).__name__ == "PlainParameter"
-        for one in command.get_params(context)
-        if getattr(one, "type_descriptor", None)
-    ]
-    assert plain and all(plain) == is_there == any(plain)

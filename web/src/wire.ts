@@ -19,8 +19,7 @@ export type AnyEdit =
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
-  | DropManualEdits
-  | RemoveAssets;
+  | DropManualEdits;
 export type Event =
   | Start
   | Hello
@@ -127,7 +126,6 @@ export interface Everything {
   Reason: Reason;
   RebuildJob: RebuildJob;
   RecentProject: RecentProject;
-  RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
   ReplyToQuestion: ReplyToQuestion;
   ReviewAssets: ReviewAssets;
@@ -491,13 +489,6 @@ export interface CorrectByHand {
 export interface DropManualEdits {
   asset: string;
   kind: "drop-manual-edits";
-}
-/**
- * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.
- */
-export interface RemoveAssets {
-  kind: "remove-assets";
-  ids: string[];
 }
 /**
  * Run the program on all assets, or on some; those that are new are prepared before. rebuild: whether bodies of

@@ -1,5 +1,5 @@
 """The `meshforge` command: its list of commands, and how errors reach a person. Other spellings of options are errors
-that name the one, and what is typed becomes values without pydantic, by which Typer reads, where Python alone can."""
+that name the one."""
 
 import gc
 import io
@@ -9,8 +9,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
-from typing import Any, Literal, cast, get_args, get_origin
+from typing import Any, cast
 
 import typer
 from typer import BadParameter
@@ -57,9 +56,6 @@ class CommandGroup(TyperGroup):
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         self.commands = dict.fromkeys(COMMANDS)  # type: ignore[assignment]  # only their names count, for suggestions
-
-    def get_params(self, ctx: Any) -> list[Any]:  # ctx: Typer hides its type
-        return read_plainly(super().get_params(ctx))
 
     def list_commands(self, ctx: typer.Context) -> list[str]:  # type: ignore[override]  # Typer hides its types
         return list(COMMANDS)
@@ -152,52 +148,10 @@ def _run(debug: bool) -> None:
 OTHER_SPELLINGS = dict.fromkeys(("--fresh", "--redo", "--rerun", "--force"), "--again") | {"--sure": "--min-confidence"}
 OTHER_SPELLINGS |= dict.fromkeys(("--method", "--engine", "--decomposer"), "--decompose")
 """What options are called here, by what they are called elsewhere."""
-_PATH_RULES = ("exists", "writable", "resolve_path", "allow_dash", "path_type")
-"""What Typer can be asked to check of a path."""
-
-
-def read_plainly(parameters: list[Any]) -> list[Any]:
-    """Let texts, paths and defaults of Typer's parameters be taken as they are; all else is read by Typer.
-
-    Typer asks pydantic even for an option that nobody typed, and that takes 0.08 s to load. A version of Typer that
-    works otherwise inside reads all of it, as it does by itself.
-    """
-    try:
-        from typer._coercion import RuntimeParam, build_runtime_param  # lazy: private, so it may not be there
-    except ImportError:
-        return parameters
-
-    class PlainParameter(RuntimeParam):
-        def _coerce_value(self, value: Any, param: Any, ctx: Any) -> Any:
-            plain, found = _take_plainly(self.annotation, self.parameter_info, value)
-            return found if plain else build_runtime_param(param.type_descriptor).coerce(value, param=param, ctx=ctx)
-
-    for parameter in parameters:
-        if kind := getattr(parameter, "type_descriptor", None):
-            parameter._runtime_param = PlainParameter(kind.parameter_info, kind.annotation)
-    return parameters
-
-
-def _take_plainly(kind: Any, about: Any, value: Any) -> tuple[bool, Any]:
-    """Whether Python alone can make the value of a kind, and that value."""
-    if about.parser is not None:
-        return False, None
-    if (kind is str and isinstance(value, str)) or (kind in (bool, int, float) and type(value) is kind):
-        return True, value
-    if kind == list[str] and isinstance(value, list | tuple):
-        return True, [*map(str, value)]
-    if get_origin(kind) is Literal and value in get_args(kind):
-        return True, value
-    if kind is Path and not any(getattr(about, rule) for rule in _PATH_RULES):
-        return True, Path(value)
-    return False, None
 
 
 class Command(TyperCommand):
     """Raises UsageError for another spelling of an option that the command has."""
-
-    def get_params(self, ctx: Any) -> list[Any]:  # ctx: Typer hides its type
-        return read_plainly(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # ctx: Typer hides its type
         from meshforge.common import UsageError  # lazy: the list of commands needs none

@@ -151,10 +151,6 @@ class Layout:
         """Where templates are looked for: beside the program, then in their folder."""
         return self.folder, self.own_templates
 
-    def list_kept(self, asset: str) -> tuple[Path, ...]:
-        """Return the files and folders that a project keeps for an asset, whether they are there or not."""
-        return tuple(file.path(self.folder, asset) for file in list_files() if "{asset}" in file.name and file.hulls)
-
 
 @cache
 def list_files() -> tuple[ProjectFile, ...]:

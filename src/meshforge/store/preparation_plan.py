@@ -1,12 +1,10 @@
 """When all assets of a project were prepared last: what assets were there, and from which probability bodies are
 rebuilt of which hulls span parts. Assets that come later are new."""
 
-from collections.abc import Collection
-
 from pydantic import AliasChoices, Field
 
 from meshforge import geometry
-from meshforge.store.layout import JsonFile, Layout, read_json, write_json
+from meshforge.store.layout import JsonFile
 
 
 class PreparationPlanFile(JsonFile):
@@ -21,14 +19,3 @@ class PreparationPlanFile(JsonFile):
     min_confidence: float | None = Field(default=None, validation_alias=AliasChoices("min_confidence", "sure"))
     pieces: geometry.PieceEngine = "coacd"
     only: tuple[str, ...] = ()
-
-
-def forget_assets(layout: Layout, assets: Collection[str]) -> None:
-    """Let assets be new when they come back, under the lock that the caller holds."""
-    kept = read_json(layout.preparation_plan, PreparationPlanFile)
-    if kept is None:
-        return
-    lists = {"decomposed": kept.decomposed, "rebuilt": kept.rebuilt}
-    left = {name: tuple(one for one in ids if one not in assets) for name, ids in lists.items() if ids is not None}
-    if (after := kept.model_copy(update=left)) != kept:
-        write_json(layout.preparation_plan, after)

@@ -4,7 +4,7 @@ labels; the folder that is made with it, and the assets that it names.
 
 import os
 import tomllib
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
@@ -294,16 +294,6 @@ def find_assets(folder: Path) -> batch.AssetSet:
                 remedy="Make another project for it, or move it there.",
             )
     return found
-
-
-def drop_assets(folder: Path, found: batch.AssetSet, assets: Collection[str]) -> tuple[str, ...]:
-    """Name assets no more in the settings, and return those that a folder or a glob means still; the caller holds the
-    lock."""
-    paths = {found.ids[asset] for asset in assets}
-    named = tuple(entry for entry in read_settings(folder).assets if plain_path(folder / entry) not in paths)
-    meant = set(batch.expand(named, folder).paths) if named else set()
-    change_setting(folder, "assets", named)
-    return tuple(asset for asset in assets if found.ids[asset] in meant)
 
 
 def add_assets(folder: Path, found: batch.AssetSet, paths: Iterable[str | Path]) -> tuple[str, ...]:

@@ -24,12 +24,11 @@ from meshforge.formats import MESH_SUFFIXES
 from meshforge.signoff.question import NOT_OF_FAMILY, ExclusionReason
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
-from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEvent, format_lines
+from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, format_lines
 from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
-from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
 
@@ -129,8 +128,9 @@ class Store:
         ProjectError for one that there is not, and where none of the family would be left."""
         for asset in assets:
             self.path(asset)
-        if reason == NOT_OF_FAMILY:
-            self._check_rest(assets)
+        if reason == NOT_OF_FAMILY and self.found.ids.keys() <= set(assets):
+            remedy = "Add other assets first."
+            raise ProjectError("no asset of the family would be left", where=str(self.folder), remedy=remedy)
         with self.lock():
             self._note_exclusions()
             self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
@@ -142,11 +142,6 @@ class Store:
             self.add_events(*(ExclusionEvent(asset=asset, reason=why) for asset, why in before.items()))
             after = settings_file.edit_settings(self.folder, {"left_out": None, "removed": None})
             write_atomically(self.layout.settings, after)
-
-    def _check_rest(self, away: Collection[str]) -> None:
-        if self.found.ids.keys() <= set(away):
-            remedy = "Add other assets first."
-            raise ProjectError("no asset of the family would be left", where=str(self.folder), remedy=remedy)
 
     def path(self, asset: str) -> Path:
         """Return the file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
@@ -187,28 +182,6 @@ class Store:
         """Return what is done to an asset before the program. Raises AssetError where its files are damaged."""
         self.path(asset)
         return batch.read_preparation(self.layout.preparation(asset)) or batch.Preparation()
-
-    def remove_assets(self, assets: Collection[str]) -> None:
-        """Remove assets from the project, with what it keeps for them; their own files stay. One that a folder or a
-        glob of the settings means is excluded. Raises ProjectError for the last one of the family."""
-        for asset in assets:
-            self.path(asset)
-        self._check_rest(assets)
-        with self.lock():
-            self._note_exclusions()
-            feedback, meant = self.feedback(), settings_file.drop_assets(self.folder, self.every, assets)
-            for asset in assets:
-                batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
-                for path in self.layout.list_kept(asset):
-                    if path.is_file():
-                        path.unlink()
-            verdicts = [VerdictEvent(asset=asset) for asset in assets if feedback.verdict_on(asset)]
-            excluded = (*meant, *(asset for asset in assets if asset in feedback.exclusions and asset not in meant))
-            reasons = (ExclusionEvent(asset=one, reason=NOT_OF_FAMILY if one in meant else None) for one in excluded)
-            events: list[Event] = [*verdicts, *reasons]
-            if events:
-                self.add_events(*events)
-            forget_assets(self.layout, assets)
 
     # Labels
 

@@ -25,7 +25,7 @@ def test_every_file_of_a_project_is_in_the_table(tmp_path: Path) -> None:
 
 def test_a_path_is_that_of_its_asset(tmp_path: Path) -> None:
     layout = Layout(tmp_path)
-    for path in (*layout.list_kept("deep/a.obj"), layout.stamps("deep/a.obj")):
+    for path in (layout.labels("deep/a.obj"), layout.preparation("deep/a.obj"), layout.stamps("deep/a.obj")):
         inside = path / "preparation.json" if path == layout.preparation("deep/a.obj") else path
         found = identify_file(relative_name(inside, tmp_path))
         assert found and found[1] == "deep/a.obj"

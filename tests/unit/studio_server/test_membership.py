@@ -1,4 +1,4 @@
-"""Assets that are left out, removed and added, each undone: the settings, the ids, and what is kept for them."""
+"""Assets that are left out and added, each undone: the settings, the ids, and what is kept for them."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
-from meshforge.project.preparation_plan import keep_decomposed
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import History
-from meshforge.studio.edits.assets import AddAssets, ExcludeAssets, RemoveAssets
+from meshforge.studio.edits.assets import AddAssets, ExcludeAssets
 from meshforge.studio.edits.base import make_edit
 from tests.unit.batch.families import tree
 from tests.unit.project.tables import FIRST, SECOND, THIRD, demonstrated, fresh
@@ -43,40 +42,8 @@ def test_an_asset_that_is_left_out_keeps_what_is_known_of_it(tmp_path: Path) -> 
     assert _kept(project) == before
 
 
-def test_an_asset_that_is_removed_goes_with_all_that_is_kept_for_it_and_its_own_file_stays(tmp_path: Path) -> None:
-    project = demonstrated(tmp_path)
-    keep_decomposed(project, project.assets())
-    before, sources, history = _kept(project), tree(tmp_path / "assets"), History.open(project.folder)
-    make_edit(history, project, RemoveAssets(ids=(FIRST,)))
-    found = Project.open(project.folder)
-    assert (found.assets(), found.status().lost) == ((SECOND, THIRD), ())
-    assert not [name for name in _kept(project) if FIRST in name]
-    assert tree(tmp_path / "assets") == sources
-    history.undo()
-    assert _kept(project) == before and _now(project) == (FIRST, SECOND, THIRD)
-
-
-def test_an_asset_that_is_named_outright_is_no_more_named(tmp_path: Path) -> None:
-    fresh(tmp_path)
-    project = Project.create(tmp_path / "named", [tmp_path / "assets" / FIRST, tmp_path / "assets" / SECOND])
-    first, second = project.assets()
-    project.remove_assets([first])
-    assert len(project.settings.assets) == 1 and not project.exclusions()
-    assert _now(project) == (second,)
-
-
-def test_an_asset_that_was_removed_can_be_added_again(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    path = project.path(FIRST)
-    project.remove_assets([FIRST])
-    assert Project.open(project.folder).add_assets([path]).assets() == (FIRST, SECOND, THIRD)
-
-
-@pytest.mark.parametrize(
-    "edit", [ExcludeAssets(ids=(FIRST, SECOND, THIRD), reason=NOT_OF_FAMILY), RemoveAssets(ids=(FIRST, SECOND, THIRD))]
-)
-def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: ExcludeAssets | RemoveAssets) -> None:
-    project = fresh(tmp_path)
+def test_the_last_asset_of_a_family_stays(tmp_path: Path) -> None:
+    project, edit = fresh(tmp_path), ExcludeAssets(ids=(FIRST, SECOND, THIRD), reason=NOT_OF_FAMILY)
     before = _kept(project)
     with pytest.raises(ProjectError, match="would be left"):
         make_edit(History.open(project.folder), project, edit)

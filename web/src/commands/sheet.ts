@@ -1,5 +1,5 @@
 // Commands on the open asset, or those side by side: showing several, and taking them out of the family.
-import { leaveOut, removeAssets, whyNotLeave } from "../store/members";
+import { leaveOut, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
 import { assetsInView, toggleSheet } from "../store/sheet";
 import { useWorkspace } from "../store/workspace";
@@ -34,5 +34,4 @@ const withChosen = (does: (assets: readonly string[]) => Promise<void>) => () =>
 
 export const memberCommands = commandsOf("Edit", [
   { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", enabled: isAble, run: withChosen(leaveOut) },
-  { id: "remove-asset", title: "Remove this asset, or all side by side, from the project", enabled: isAble, run: withChosen(removeAssets) },
 ]);

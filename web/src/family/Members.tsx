@@ -2,7 +2,7 @@
 import { Ellipsis, Undo } from "lucide-react";
 import { useShallow } from "zustand/react/shallow";
 import { commonPartsOf, splitName } from "../store/commonParts";
-import { leaveOut, putBack, removeAssets, whyNotLeave } from "../store/members";
+import { leaveOut, putBack, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
 import { assetsInView } from "../store/sheet";
 import { countText } from "../store/words";
@@ -17,15 +17,11 @@ export function AssetMenu() {
   const order = useProject((state) => state.order);
   const [first] = assets;
   const name = first === undefined ? "the open asset" : assets.length > 1 ? `these ${assets.length} assets` : ownName(first, order);
-  const files = assets.length > 1 ? "their files stay" : "its file stays";
   const disabled = order.length === 0 || whyNotLeave(assets) !== null;
   return (
     <Menu
-      trigger={<IconButton icon={Ellipsis} name={`Leave out or remove ${assets.length > 1 ? "the assets side by side" : "the open asset"}`} />}
-      lines={[
-        { label: `Leave ${name} out of the family`, disabled, onSelect: () => void leaveOut(assets) },
-        { label: `Remove ${name} from the project; ${files}`, disabled, onSelect: () => void removeAssets(assets) },
-      ]}
+      trigger={<IconButton icon={Ellipsis} name={`Leave out ${assets.length > 1 ? "the assets side by side" : "the open asset"}`} />}
+      lines={[{ label: `Leave ${name} out of the family`, disabled, onSelect: () => void leaveOut(assets) }]}
     />
   );
 }

@@ -1,4 +1,4 @@
-// Assets that leave the family and come back: left out and kept, or removed from the project.
+// Assets that leave the family and come back; all that is kept for them stays.
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { openAsset, useWorkspace } from "./workspace";
@@ -14,10 +14,6 @@ export function whyNotLeave(assets: readonly string[]): string | null {
 /** Leaves assets out of the family; all that is kept for them stays. */
 export const leaveOut = (assets: readonly string[]): Promise<void> =>
   goOn(assets, () => perform({ kind: "exclude", ids: [...assets], reason: "not of this family" }));
-
-/** Removes assets from the project, with what is kept for them; their own files stay. */
-export const removeAssets = (assets: readonly string[]): Promise<void> =>
-  goOn(assets, () => perform({ kind: "remove-assets", ids: [...assets] }));
 
 export const putBack = (assets: readonly string[]): Promise<boolean> =>
   perform({ kind: "exclude", ids: [...assets], reason: null });

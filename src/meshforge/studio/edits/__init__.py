@@ -25,7 +25,6 @@ AnyEdit = Annotated[
     | assets.ReviewAssets
     | assets.ExcludeAssets
     | assets.CorrectByHand
-    | assets.DropManualEdits
-    | assets.RemoveAssets,
+    | assets.DropManualEdits,
     Field(discriminator="kind"),
 ]

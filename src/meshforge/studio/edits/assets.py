@@ -185,24 +185,6 @@ class AddTemplate(Edit):
         return (project.layout.own_templates / self.name,)
 
 
-class RemoveAssets(Edit):
-    """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
-
-    kind: Literal["remove-assets"] = "remove-assets"
-    touches = (Layout.settings, Layout.events, Layout.preparation_plan)
-    ids: tuple[str, ...]
-
-    def apply(self, project: Project) -> None:
-        project.remove_assets(self.ids)
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        kept = (path for asset in self.ids for path in project.layout.list_kept(asset))
-        return (*super().list_paths(project), *kept)
-
-    def describe(self, project: Project) -> str:
-        return f"{_count_or_name(self.ids)} removed from the project"
-
-
 def _count_or_name(ids: tuple[str, ...]) -> str:
     return ids[0] if len(ids) == 1 else pluralize(len(ids), "asset")
 
