@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from meshforge.engines.codes import CODES, RuleCode
+from meshforge.engines import CODES, RuleCode
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "codes.md"
 _HEAD = """\

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from meshforge.common import UsageError, suggest_name
-from meshforge.engines.codes import CODES
+from meshforge.engines import CODES
 
 
 def explain(

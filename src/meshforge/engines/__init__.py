@@ -5,8 +5,9 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "codes": "CODES CODES_BY_RULE RuleCode",
-        "limits": "ENGINES Engine Finding Limit Severity check_limits find_engine make_limit",
+        "limits": (
+            "CODES CODES_BY_RULE ENGINES Engine Finding Limit RuleCode Severity check_limits find_engine make_limit"
+        ),
         "shapes": "EngineShape ShapeComparison",
     },
 )

@@ -1,11 +1,11 @@
 # Written by `python -m script.stubs`.
-from meshforge.engines.codes import CODES as CODES
-from meshforge.engines.codes import CODES_BY_RULE as CODES_BY_RULE
-from meshforge.engines.codes import RuleCode as RuleCode
+from meshforge.engines.limits import CODES as CODES
+from meshforge.engines.limits import CODES_BY_RULE as CODES_BY_RULE
 from meshforge.engines.limits import ENGINES as ENGINES
 from meshforge.engines.limits import Engine as Engine
 from meshforge.engines.limits import Finding as Finding
 from meshforge.engines.limits import Limit as Limit
+from meshforge.engines.limits import RuleCode as RuleCode
 from meshforge.engines.limits import Severity as Severity
 from meshforge.engines.limits import check_limits as check_limits
 from meshforge.engines.limits import find_engine as find_engine

@@ -1,5 +1,6 @@
 """Physics engines: what each limit measures of a hull, and what of a mesh is beyond them, as findings; the engines, as
-`engines.toml` has them, row by row. `docs/engines.md` shows these, and a test holds the two together."""
+`engines.toml` has them, row by row, which `docs/engines.md` shows; and the codes of all findings, such as MF204, of
+`codes.toml`: they stay the same over versions, for builds that look for them."""
 
 import os
 import tomllib
@@ -14,7 +15,6 @@ import numpy as np
 
 from meshforge import symbolic
 from meshforge.common import UsageError, join_names, pluralize, suggest_among
-from meshforge.engines.codes import CODES_BY_RULE
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
 
 Severity = Literal["error", "warning"]
@@ -25,6 +25,26 @@ _THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbo
 _SHORTER = "Split it along its length."
 
 _MESH_FILES = ("obj", "stl", "ply")
+
+
+@dataclass(frozen=True, slots=True)
+class RuleCode:
+    """A code. rules: the names of the rules that it stands for; title: what is wrong; why: it matters; remedy: what to
+    do; example: of an asset that has it."""
+
+    code: str
+    rules: tuple[str, ...]
+    title: str
+    why: str
+    remedy: str
+    example: str
+
+
+_ROWS = tomllib.loads(files("meshforge.engines").joinpath("codes.toml").read_text("utf-8"))
+CODES = MappingProxyType({code: RuleCode(code, tuple(row.pop("rules")), **row) for code, row in _ROWS.items()})
+"""Every code, in order."""
+CODES_BY_RULE = MappingProxyType({rule: code for code, row in CODES.items() for rule in row.rules})
+"""The code of each rule; those of plug-ins have none."""
 
 
 @dataclass(frozen=True, slots=True)

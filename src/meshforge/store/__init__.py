@@ -13,11 +13,12 @@ __getattr__, __all__ = export_lazily(
         "feedback": "Feedback load_events",
         "history": "FileConflict ConflictError History",
         "history_entries": "HistoryEntry",
-        "layout": "Effect JsonFile Layout ProjectFile identify_file json_text list_files read_json write_json",
+        "layout": (
+            "Effect JsonFile Layout PreparationPlanFile ProjectFile identify_file json_text list_files read_json write_json"
+        ),
         "mesh_cache": "MeshCache",
         "meshes": "AssetFacts AssetFiles geometry_digest hull_digests iterate_asset_index",
         "outputs": "AssetOutput find_outputs",
-        "preparation_plan": "PreparationPlanFile",
         "program": "ManualEditsFile DemonstrationFile ProgramRecord StepLine parse_action_text",
         "settings": (
             "Settings VlmSettings add_assets change_goal create_folder edit_settings find_assets orientation "

@@ -22,6 +22,7 @@ from meshforge.store.history_entries import HistoryEntry as HistoryEntry
 from meshforge.store.layout import Effect as Effect
 from meshforge.store.layout import JsonFile as JsonFile
 from meshforge.store.layout import Layout as Layout
+from meshforge.store.layout import PreparationPlanFile as PreparationPlanFile
 from meshforge.store.layout import ProjectFile as ProjectFile
 from meshforge.store.layout import identify_file as identify_file
 from meshforge.store.layout import json_text as json_text
@@ -36,7 +37,6 @@ from meshforge.store.meshes import hull_digests as hull_digests
 from meshforge.store.meshes import iterate_asset_index as iterate_asset_index
 from meshforge.store.outputs import AssetOutput as AssetOutput
 from meshforge.store.outputs import find_outputs as find_outputs
-from meshforge.store.preparation_plan import PreparationPlanFile as PreparationPlanFile
 from meshforge.store.program import ManualEditsFile as ManualEditsFile
 from meshforge.store.program import DemonstrationFile as DemonstrationFile
 from meshforge.store.program import ProgramRecord as ProgramRecord

@@ -9,9 +9,9 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Annotated, Literal, Self, TypeVar, overload
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
-from meshforge import batch
+from meshforge import batch, geometry
 from meshforge.batch import SETTINGS, STATE
 from meshforge.common import ProjectError, first_validation_error, to_text, write_atomically
 
@@ -212,3 +212,19 @@ def invalid_file(
 ) -> ProjectError:
     """Return the error that names the first field that does not fit."""
     return ProjectError(first_validation_error(error), where=str(path), remedy=remedy)
+
+
+class PreparationPlanFile(JsonFile):
+    """preparation.json: when all assets of a project were prepared last; those that come later are new.
+
+    decomposed, rebuilt: the ids of the assets that were there when pieces of all were decomposed
+    last, and when bodies of all of which hulls span parts were rebuilt last (which earlier versions called split); None
+    where that was never done. min_confidence: the probability from which they were; pieces: the engine of their fine
+    pieces; only: which hulls and bodies, all where there are none.
+    """
+
+    decomposed: tuple[str, ...] | None = None
+    rebuilt: tuple[str, ...] | None = Field(default=None, validation_alias=AliasChoices("rebuilt", "split"))
+    min_confidence: float | None = Field(default=None, validation_alias=AliasChoices("min_confidence", "sure"))
+    pieces: geometry.PieceEngine = "coacd"
+    only: tuple[str, ...] = ()

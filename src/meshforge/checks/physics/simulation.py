@@ -16,11 +16,11 @@ from meshforge.checks.physics.overlaps import (
     DEEP,
     WITHOUT_BODIES,
     BodyOverlap,
+    check_joints,
     check_loose_pieces,
     find_body_overlaps,
     report_overlaps,
 )
-from meshforge.checks.physics.sweep import check_joints
 from meshforge.common import GeometryError, join_names, pluralize, require_mujoco
 from meshforge.engines import Finding, Severity
 from meshforge.geometry import Floats, convex_hull
