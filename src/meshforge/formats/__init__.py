@@ -12,7 +12,7 @@ __getattr__, __all__ = export_lazily(
         "mesh_input": "DecomposeBy decompose from_trimesh",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface plain_part_name",
-        "mjcf.compiler": "MujocoLoad try_in_mujoco",
+        "mjcf.engine": "MujocoLoad try_in_mujoco",
         "output_tree": "ONE_FILE_A_HULL SaveResult output_path_of part_meshes save",
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",

@@ -21,8 +21,8 @@ from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface
 from meshforge.formats.meshfile.surface import plain_part_name as plain_part_name
-from meshforge.formats.mjcf.compiler import MujocoLoad as MujocoLoad
-from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
+from meshforge.formats.mjcf.engine import MujocoLoad as MujocoLoad
+from meshforge.formats.mjcf.engine import try_in_mujoco as try_in_mujoco
 from meshforge.formats.output_tree import ONE_FILE_A_HULL as ONE_FILE_A_HULL
 from meshforge.formats.output_tree import SaveResult as SaveResult
 from meshforge.formats.output_tree import output_path_of as output_path_of

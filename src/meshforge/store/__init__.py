@@ -14,7 +14,8 @@ __getattr__, __all__ = export_lazily(
         "history": "FileConflict ConflictError History",
         "history_entries": "HistoryEntry",
         "layout": (
-            "Effect JsonFile Layout PreparationPlanFile ProjectFile identify_file json_text list_files read_json write_json"
+            "Effect JsonFile Layout PreparationPlanFile ProjectFile identify_file json_text list_files read_json "
+            "write_json"
         ),
         "mesh_cache": "MeshCache",
         "meshes": "AssetFacts AssetFiles geometry_digest hull_digests iterate_asset_index",
