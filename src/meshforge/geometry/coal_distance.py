@@ -14,11 +14,10 @@ from typing import Any, NamedTuple
 import coal
 import numpy as np
 
-from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.round_shapes import place_primitive
 from meshforge.geometry.shape import Polytope, Shape
-from meshforge.geometry.solids import cut
+from meshforge.geometry.surface import heights_above
 
 _TOLERANCE = 1e-10  # coal's default, 1e-6, is its error on curved shapes; below 1e-11 its iteration begins to stray
 _ITERATIONS = 512  # thin shapes need more than the default, 128
@@ -29,8 +28,7 @@ CoalObject = tuple[Any, Any]
 _SIZES = (8, 16, 24, 32, 48, 64, 96, 128, 192)  # vertices of polytopes that are written to
 _MOST_WITHOUT_EDGES = 32  # vertices: coal looks at each of so few
 _MOST_KEPT = 64  # buffers of a size
-_TURNS = 32  # of a plane, to find the best one
-_MOST_EDGES = 254  # at a vertex; coal counts them in a byte
+_MOST_EDGES = 254  # at a vertex of a polytope; coal counts them in a byte
 
 
 class _PolytopeBuffer(NamedTuple):
@@ -57,7 +55,8 @@ def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low:
     for i, j in pairs:
         result.clear()
         gap = coal.distance(*placed[i], *placed[j], request, result)
-        found.append(gap * unit if gap > 0.0 else 0.0)
+        apart = gap > 0.0 and not any(_surrounds(shapes[a], shapes[b]) for a, b in ((i, j), (j, i)))
+        found.append(gap * unit if apart else 0.0)
     for one in taken:
         if len(_buffers[one.size]) < _MOST_KEPT:
             _buffers[one.size].append(one)
@@ -76,6 +75,10 @@ def _place(shape: Shape, origin: Floats, unit: float, taken: list[_PolytopeBuffe
         made, rotation, translation = place_primitive(coal, shape, origin, unit)
         return made, coal.Transform3s(rotation, translation)
     points = (shape.vertices - origin) / unit
+    if _has_many_edges(shape):
+        surface = _make_mesh(points, shape.faces)
+        surface.endModel()
+        return surface, coal.Transform3s()
     size = next((size for size in _SIZES if size >= len(points)), None)
     if size is None:
         return _make_polytope(points, shape.faces), coal.Transform3s()
@@ -90,43 +93,27 @@ def _place(shape: Shape, origin: Floats, unit: float, taken: list[_PolytopeBuffe
     return one.polytope, coal.Transform3s()
 
 
-def _make_polytope(points: Floats, faces: Ints) -> Any:
-    mesh = coal.BVHModelOBBRSS()  # triangle meshes take whole arrays
+def _has_many_edges(shape: Polytope) -> bool:
+    """Whether a vertex has more edges than coal can count, so that the surface is measured, as a mesh."""
+    return len(shape.vertices) > _MOST_EDGES and int(np.bincount(shape.faces.ravel()).max()) > _MOST_EDGES
+
+
+def _surrounds(shape: Shape, other: Shape) -> bool:
+    """Whether a shape that is measured as a mesh has another one inside, away from its surface."""
+    if not (isinstance(shape, Polytope) and _has_many_edges(shape)):
+        return False
+    return bool(heights_above(other.vertices.mean(axis=0)[None], shape)[0] < 0)
+
+
+def _make_mesh(points: Floats, faces: Ints) -> Any:
+    mesh = coal.BVHModelOBBRSS()
     mesh.beginModel(len(faces), len(points))
     mesh.addVertices(points)
     mesh.addTriangles(faces)
+    return mesh
+
+
+def _make_polytope(points: Floats, faces: Ints) -> Any:
+    mesh = _make_mesh(points, faces)  # triangle meshes take whole arrays
     mesh.buildConvexRepresentation(False)
     return mesh.convex
-
-
-def split_shape(shape: Shape) -> list[Shape]:
-    """Return shapes that coal can have, which are the shape together: mostly itself, else what it is cut into.
-
-    Raises GeometryError where no cut makes the shape simpler.
-    """
-    if not isinstance(shape, Polytope) or len(shape.vertices) <= _MOST_EDGES:
-        return [shape]
-    edges = np.bincount(shape.faces.ravel())
-    if edges.max() <= _MOST_EDGES:
-        return [shape]
-    normal, hub = _find_halving_plane(shape, edges)
-    halves = [half for half in cut(shape, hub, normal) if half is not None]
-    if any(np.bincount(half.faces.ravel()).max() >= edges.max() for half in halves):
-        problem = f"a vertex of a hull has {edges.max()} edges, more than can be measured"
-        raise GeometryError(problem, remedy="Give the hull fewer vertices.")
-    return [part for half in halves for part in split_shape(half)]
-
-
-def _find_halving_plane(shape: Polytope, edges: Ints) -> tuple[Floats, Floats]:
-    """The normal (3,) of a plane and a point (3,) on it, by which a vertex with too many edges loses half of them.
-
-    Two such vertices both lie on it. edges: of each vertex.
-    """
-    first, second = np.argsort(-edges, kind="stable")[:2]
-    around = np.unique(shape.faces[(shape.faces == first).any(axis=1)])
-    ways = shape.vertices[around[around != first]] - shape.vertices[first]
-    along = shape.vertices[second] - shape.vertices[first] if edges[second] > _MOST_EDGES else ways.mean(axis=0)
-    across = np.linalg.svd(along[None])[2][1:]  # two directions square to it
-    turns = np.arange(_TURNS) * (np.pi / _TURNS)
-    normals = np.column_stack([np.cos(turns), np.sin(turns)]) @ across
-    return normals[np.abs(np.sign(ways @ normals.T).sum(axis=0)).argmin()], shape.vertices[first]

@@ -17,11 +17,6 @@ from meshforge.geometry.round_shapes import place_primitive
 from meshforge.geometry.shape import Polytope, Shape
 
 
-def split_shape(shape: Shape) -> list[Shape]:
-    """Return shapes that FCL can have, which are the shape together: always itself."""
-    return [shape]
-
-
 def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low: Floats, high: Floats) -> list[float]:
     """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: of all (3,)."""
     origin, unit = (low + high) / 2, dist(low.tolist(), high.tolist()) or 1.0

@@ -28,25 +28,9 @@ def close_pairs(
     """
     if len(shapes) < 2:
         return {}
-    owned = [(k, part) for k, shape in enumerate(shapes) for part in _engine.split_shape(shape)]
-    if len(owned) > len(shapes):
-        return _merge_by_owner(owned, reach, unchanged)
     low, high = bounds([shape.aabb for shape in shapes])
     near = near_boxes(low, high, reach)
     if unchanged:
         near = [(i, j) for i, j in near if i not in unchanged or j not in unchanged]
     gaps = _engine.measure_gaps(shapes, near, low.min(axis=0), high.max(axis=0))
     return {pair: gap for pair, gap in zip(near, gaps, strict=True) if gap <= reach}
-
-
-def _merge_by_owner(
-    owned: Sequence[tuple[int, Shape]], reach: float, unchanged: frozenset[int]
-) -> dict[tuple[int, int], float]:
-    """Close pairs of shapes from their parts, each with the index of the shape it belongs to."""
-    done = frozenset(part for part, (owner, _) in enumerate(owned) if owner in unchanged)
-    found: dict[tuple[int, int], float] = {}
-    for (i, j), gap in close_pairs([part for _, part in owned], reach, done).items():
-        pair = owned[i][0], owned[j][0]
-        if pair[0] != pair[1]:
-            found[pair] = min(gap, found.get(pair, inf))
-    return dict(sorted(found.items()))

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
+from meshforge.geometry import Box, Cylinder, Floats, Polytope, Pose, Sphere, close_pairs, convex_hull, distance
 from meshforge.geometry.arrays import bounds, near_boxes
-from meshforge.geometry.coal_distance import split_shape
 
 
 def ball(corners: int, center: Floats) -> Polytope:
@@ -24,9 +23,6 @@ def ball(corners: int, center: Floats) -> Polytope:
 def test_a_vertex_may_have_more_edges_than_coal_can_count(count: int) -> None:
     cone = convex_hull(np.vstack([rim(count), [[0, 0, 1]]]))
     assert np.bincount(cone.faces.ravel()).max() == count
-    cut = split_shape(cone)
-    assert (len(cut) > 1) == (count > 254)
-    assert sum(part.volume for part in cut) == pytest.approx(cone.volume, rel=1e-12)
     small = Box(Pose.of_translation([0, 0, 1.75]), np.array([0.25, 0.25, 0.25]))
     assert distance(cone, small) == pytest.approx(0.5, abs=1e-9)
     beside = Box(Pose.of_translation([2.5, 0, 0]), np.array([0.5, 0.5, 0.5]))
@@ -59,12 +55,17 @@ def fanned(count: int) -> Polytope:
 )
 def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
     assert (np.bincount(shape.faces.ravel()) > 254).sum() == 2
-    cut = split_shape(shape)
-    assert all(np.bincount(part.faces.ravel()).max() <= 254 for part in cut)
-    assert sum(part.volume for part in cut) == pytest.approx(shape.volume, rel=1e-9)
     top = float(shape.aabb.max[2])
     assert distance(shape, Box(Pose.of_translation([0, 0, top + 1.5]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
     assert distance(shape, Box(Pose.of_translation([2.5, 0, 0]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
+    above = shape.vertices[shape.vertices[:, 2].argmax()] + np.array([0, 0, 1.0])
+    assert distance(shape, Cylinder(Pose.of_translation(above), 0.4, 0.6)) == pytest.approx(0.4, abs=1e-8)
+    mirrored = shape.transform(np.diag([1.0, 1.0, -1.0]), np.array([0, 0, 2 * top + 0.3]))
+    assert distance(shape, mirrored) == pytest.approx(0.3, abs=1e-9)
+    inside = shape.transform(np.eye(3) / 20, shape.vertices.mean(axis=0) * 0.95)
+    around = shape.transform(np.eye(3) * 20, shape.vertices.mean(axis=0) * -19)
+    for one in (inside, around, Sphere(Pose.of_translation(shape.vertices.mean(axis=0)), 0.01)):
+        assert distance(shape, one) == distance(one, shape) == 0.0
 
 
 def test_distances_do_not_depend_on_what_was_measured_before() -> None:

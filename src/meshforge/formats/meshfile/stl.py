@@ -21,13 +21,6 @@ _NAME = re.compile(
     rb"^[^\S\n]*(?:end)?solid\b(?:(?!\bvertex\b)[^\r\n])*(?=[\r\n]|\Z)(?!\s*(?:outer|vertex)\b)", re.M | re.I
 )
 _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.I)
-_WORDS = (
-    *(b"facet", b"normal", b"", b"", b"", b"outer", b"loop"),
-    *(b"vertex", b"", b"", b"") * 3,
-    *(b"endloop", b"endfacet"),
-)
-"""The words of a facet, empty where it has numbers."""
-_COORDINATES = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,33 +60,13 @@ def parse_stl(data: bytes, where: str) -> StlText:
         corners = to_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
         return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
     if text:
-        return _plain_ascii(data) or _any_ascii(data, where)
+        return _parse_ascii(data.removeprefix(codecs.BOM_UTF8), where)
     if count < 0 or all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
 
 
-def _plain_ascii(data: bytes) -> StlText | None:
-    """A text of one solid that has just the words it should, read all at once; None where it is otherwise."""
-    title, _, text = data.removeprefix(codecs.BOM_UTF8).lstrip().partition(b"\n")
-    body, ended, rest = text.lower().partition(b"endsolid")
-    words = body.split()
-    count = len(words) // len(_WORDS)
-    if title[5:6].strip() or not ended or b"\n" in rest.strip() or len(words) != count * len(_WORDS) or b"_" in body:
-        return None
-    if b"vertex" in title.lower():
-        return None
-    if any(words[k :: len(_WORDS)].count(word) != count for k, word in enumerate(_WORDS) if word):
-        return None
-    try:
-        axes = [np.array(list(map(float, words[k :: len(_WORDS)]))) for k in _COORDINATES]
-    except ValueError:
-        return None
-    corners = np.column_stack(axes).reshape(-1, 3, 3)
-    return StlText(corners, np.zeros(count, dtype=np.int64), (text_of(title[len(b"solid") :].strip()),), False)
-
-
-def _any_ascii(data: bytes, where: str) -> StlText:
+def _parse_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
     plain = _NAME.sub(lambda title: b" " * len(title[0]), data)  # titles may hold any word
     facets = list(_FACET.finditer(plain))
