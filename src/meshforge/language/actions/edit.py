@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import ProgramError
 from meshforge.geometry import FLATNESS, Aabb, Floats, Shape
-from meshforge.symbolic import Hull
+from meshforge.symbolic import Hull, SymbolicMesh
 
 _EQUAL = 1e-9  # volumes of like hulls differ by rounding, which must not choose between them
 _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
@@ -21,12 +21,13 @@ _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
 class HullGroup:
     """The hulls that an action edits at once: all of C, or one body or component of it.
 
-    length: L of the run [m]; templates: by the paths that programs write.
+    length: L of the run [m]; templates: by the paths that programs write; mesh: the whole, before the action.
     """
 
     hulls: tuple[Hull, ...]
     length: float
     templates: Mapping[str, Template]
+    mesh: SymbolicMesh
 
     @cached_property
     def bounds(self) -> Aabb:
@@ -75,11 +76,13 @@ class NewShape:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class GroupEdit:
-    """What an action does to one group; removes: whether its hulls go."""
+    """What an action does to one group; removes: whether its hulls go; fits: False where they stay as they are, since
+    what would be made does not fit."""
 
     made: tuple[NewShape, ...] = ()
     removes: bool = True
     note: str | None = None
+    fits: bool = True
 
     def replaces_one(self, made: NewShape) -> bool:
         """Return whether a made shape takes the place of one hull alone."""

@@ -1,0 +1,150 @@
+"""How what an action makes differs from the hulls that it replaces: how far their surfaces are apart, which gaps to
+other hulls it narrows, and where it sticks out of the asset."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from meshforge import geometry
+from meshforge.geometry import Aabb, Floats, Shape
+from meshforge.language.actions.edit import NewShape
+from meshforge.symbolic import Hull, SymbolicMesh
+
+STICKS_OUT = 0.02
+"""Of the diagonal: what sticks out of the asset by more is a misfit."""
+LOST = 0.5
+"""Of a gap: what narrows one by more is a misfit, unless the two nearly touched before."""
+_NEARLY = 3.0  # contact distances: parts that look joined lie so far apart in real files
+_PLACES = 1000  # on the surface of a shape, besides its corners
+
+MisfitKind = Literal["sticks out", "grows into", "clearance lost"]
+
+
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """Why a primitive that an action made may be wrong. text: a sentence; hulls: the names of the one that was made and
+    of the one beside it, if any; share: of the diagonal, how far it sticks out or narrows the gap."""
+
+    kind: MisfitKind
+    text: str
+    hulls: tuple[str, ...]
+    share: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NarrowGap:
+    """A gap to a hull that shapes narrow, from `was` to `now` [m]."""
+
+    was: float
+    now: float
+    other: Hull
+
+    def describe(self, name: str, verb: str = "shrinks") -> str:
+        """Return it in words; name: of what narrows it."""
+        return f"the gap between {name} and {self.other.name} {verb} from {self.was:.3g} m to {self.now:.3g} m"
+
+
+def find_narrow_gaps(
+    shapes: Sequence[Shape], sources: Sequence[Hull], beside: Sequence[Hull], contact_distance: float
+) -> list[NarrowGap]:
+    """Return the gaps that shapes narrow in the place of hulls, by more than a tenth and by more than the contact
+    distance [m]; gaps wider than the shapes are large do not count. beside: the hulls to which there may be gaps."""
+    if not beside:
+        return []
+    box = Aabb.union(shape.aabb for shape in shapes)
+    low, high = geometry.bounds([hull.aabb for hull in beside])
+    apart = np.maximum(low - box.max, box.min - high).max(axis=1)
+    near = [beside[k] for k in np.flatnonzero(apart < box.diagonal)]
+    first = len(shapes) + len(sources)
+    everything = [*shapes, *(hull.shape for hull in (*sources, *near))]
+    pairs = geometry.close_pairs(everything, box.diagonal, frozenset(range(first, len(everything))))
+    found = []
+    for k, hull in enumerate(near, first):
+        was = min(pairs.get((j, k), box.diagonal) for j in range(len(shapes), first))
+        now = min(pairs.get((j, k), box.diagonal) for j in range(len(shapes)))
+        if was - now > max(was / 10, contact_distance):
+            found.append(NarrowGap(was, now, hull))
+    return sorted(found, key=lambda gap: gap.now - gap.was)
+
+
+def find_misfits(
+    mesh: SymbolicMesh, selected_mask: int, made: Sequence[tuple[Hull, NewShape]]
+) -> tuple[tuple[Misfit, ...], list[str]]:
+    """Return how primitives that an action made of selected hulls misfit; and sentences on that, and on each other gap
+    that they narrow to a hull that was not selected."""
+    made = [(new, one) for new, one in made if new.primitive]
+    length = mesh.diagonal if mesh.scale is None else mesh.scale
+    beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1] if made else []
+    out, gaps = list[Misfit](), list[tuple[NarrowGap, str, Misfit | None]]()
+    for new, one in made:
+        name = (new.keeps_name and new.parent) or new.name
+        beyond = _measure_out(new.shape, one.sources, mesh, STICKS_OUT * length)
+        if beyond > STICKS_OUT * length:
+            text = f"{name} sticks out of the asset by {beyond:.3g} m"
+            out.append(Misfit("sticks out", text, (new.name,), beyond / length))
+        for gap in find_narrow_gaps([new.shape], one.sources, beside, mesh.contact_distance):
+            gaps.append((gap, text := gap.describe(name), _judge_gap(gap, text, new, mesh.contact_distance, length)))
+    out.sort(key=lambda one: -one.share)
+    gaps.sort(key=lambda row: (row[0].was - row[0].now, *row[1:2]), reverse=True)
+    misfits = (*out, *(misfit for _, _, misfit in gaps if misfit))
+    notes = [_name_first([one.text for one in out]), _name_first([text for _, text, _ in gaps])]
+    return misfits, [note for note in notes if note]
+
+
+def _judge_gap(gap: NarrowGap, text: str, new: Hull, contact_distance: float, length: float) -> Misfit | None:
+    """The misfit that a gap is, if it was one that counts and less than half of it is left."""
+    if gap.was <= _NEARLY * contact_distance or gap.now > (1 - LOST) * gap.was:
+        return None
+    kind: MisfitKind = "grows into" if gap.now <= contact_distance else "clearance lost"
+    return Misfit(kind, text, (new.name, gap.other.name), (gap.was - gap.now) / length)
+
+
+def _name_first(texts: Sequence[str]) -> str | None:
+    more = f" (and {len(texts) - 1} more)" if len(texts) > 1 else ""
+    return f"{texts[0]}{more}" if texts else None
+
+
+def _measure_out(shape: Shape, sources: Sequence[Hull], mesh: SymbolicMesh, least: float) -> float:
+    """How far [m] a shape reaches over the convex hull of a mesh and of the box around the hulls that it replaces; 0
+    where it does not reach over that box by more than `least` along any axis."""
+    box = Aabb.union(hull.aabb for hull in sources)
+    if (shape.aabb.min >= box.min - least).all() and (shape.aabb.max <= box.max + least).all():
+        return 0.0
+    around = geometry.convex_hull(np.concatenate([box.corners, *(hull.vertices for hull in mesh.hulls)]))
+    return float(geometry.heights_above(shape.vertices, around).max())
+
+
+def measure_mismatch(one: Sequence[Shape], other: Sequence[Shape]) -> float:
+    """Return how far [m] the outer surface of either of two unions of convex shapes is from the other at most, at the
+    corners and a thousand places of each shape; what lies inside the other is no distance from it."""
+    return max(_measure_beyond(one, other), _measure_beyond(other, one))
+
+
+def _measure_beyond(shapes: Sequence[Shape], others: Sequence[Shape]) -> float:
+    farthest = 0.0
+    for k, shape in enumerate(shapes):
+        places, _ = geometry.sample_surface(shape.vertices, shape.faces, _PLACES)
+        points = np.concatenate([shape.vertices, places])
+        for other in (*shapes[:k], *shapes[k + 1 :]):
+            points = points[geometry.heights_above(points, other) > -1e-9 * other.aabb.diagonal]
+        farthest = max(farthest, float(_distances(points, others).max(initial=0.0)))
+    return farthest
+
+
+def _distances(points: Floats, shapes: Sequence[Shape]) -> Floats:
+    """Distances (n,) [m] of points (n, 3) from a union of convex shapes, 0 inside: a point's height above the planes of
+    a shape is at most its distance from that, so that few shapes have to be measured."""
+    heights = np.stack([geometry.heights_above(points, shape) for shape in shapes])
+    found: Floats = np.where((heights <= 0).any(axis=0), 0.0, np.inf)
+    for shape, height in zip(shapes, heights, strict=True):
+        near = np.flatnonzero(height < found)
+        corners = shape.vertices[shape.faces]
+        for start in range(0, len(near), 100):
+            part = near[start : start + 100]
+            pairs = np.repeat(points[part], len(corners), axis=0)
+            places = geometry.nearest_on_triangles(pairs, np.tile(corners, (len(part), 1, 1)))
+            lengths = np.linalg.norm(places - pairs, axis=1).reshape(len(part), -1).min(axis=1)
+            found[part] = np.minimum(found[part], lengths)
+    return found
