@@ -16,7 +16,7 @@ from meshforge.project.family_state import measure_results, read_family_state
 from meshforge.project.goals import read_goal_statuses
 from meshforge.project.learn import renew_program, update_classes
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
-from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, review_family
+from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, forget_misfits, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import LearningOutcome
@@ -103,7 +103,8 @@ def assess_family(
     family = model_family(list(meshes.values()))
     if stop and stop():
         return None
-    shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
+    shown = [forget_misfits(measures[asset]) for asset in state.demos if asset in measures]
+    shown += [measures[asset] for asset in state.accepted if asset in measures]
     goals = read_goal_statuses(store, program, basis.inputs)
     found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown), goals)
     return FamilyAssessment(found, state, program, basis, measures)

@@ -1,7 +1,7 @@
 """How edits of a family differ in volume, extents, hulls and free space; and those that stand out."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import expm1, isfinite, log
 from typing import Literal, get_args
@@ -64,6 +64,11 @@ def measure_edit(before: SymbolicMesh, after: SymbolicMesh, trace: Iterable[Rule
         freed=freed,
         misfits=tuple(one for line in trace for one in line.misfits if after.index.keys() >= {*one.hulls}),
     )
+
+
+def forget_misfits(one: EditMeasures) -> EditMeasures:
+    """Return the measures of an edit that a person demonstrated, but did not look at: they need not know how it fits."""
+    return replace(one, misfits=())
 
 
 def _sum_volumes(hulls: Sequence[Hull]) -> float:

@@ -393,8 +393,9 @@ class Store:
 
     def reference_measures(self) -> list[signoff.EditMeasures]:
         """Return the measures of edits that a person showed, accepted or corrected, as the last review found them."""
-        last = self.assessment()
-        return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []
+        last, demos = self.assessment(), self.demonstration_ids()
+        found = [(asset, one.measures) for asset, one in last.assets.items() if one.looked_at] if last else []
+        return [signoff.forget_misfits(one) if asset in demos else one for asset, one in found if one]
 
     def write_assessment(self, found: AssessmentFile) -> None:
         """Keep how the family stands."""

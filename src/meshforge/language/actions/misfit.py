@@ -14,9 +14,9 @@ from meshforge.symbolic import Hull, SymbolicMesh
 
 STICKS_OUT = 0.02
 """Of the diagonal: what sticks out of the asset by more is a misfit."""
-LOST = 0.5
-"""Of a gap: what narrows one by more is a misfit, unless the two nearly touched before."""
-_NEARLY = 3.0  # contact distances: parts that look joined lie so far apart in real files
+LOST = 0.75
+"""Of a gap that counts: what narrows it by more is a misfit."""
+_LEAST_GAP = 0.015  # of the diagonal: pieces of a decomposition lie as far as that apart by accident
 _PLACES = 1000  # on the surface of a shape, besides its corners
 
 MisfitKind = Literal["sticks out", "grows into", "clearance lost"]
@@ -95,7 +95,7 @@ def find_misfits(
 
 def _judge_gap(gap: NarrowGap, text: str, new: Hull, contact_distance: float, length: float) -> Misfit | None:
     """The misfit that a gap is, if it was one that counts and less than half of it is left."""
-    if gap.was <= _NEARLY * contact_distance or gap.now > (1 - LOST) * gap.was:
+    if gap.was <= _LEAST_GAP * length or gap.now > (1 - LOST) * gap.was:
         return None
     kind: MisfitKind = "grows into" if gap.now <= contact_distance else "clearance lost"
     return Misfit(kind, text, (new.name, gap.other.name), (gap.was - gap.now) / length)
@@ -110,7 +110,7 @@ def _measure_out(shape: Shape, sources: Sequence[Hull], mesh: SymbolicMesh, leas
     """How far [m] a shape reaches over the convex hull of a mesh and of the box around the hulls that it replaces; 0
     where it does not reach over that box by more than `least` along any axis."""
     box = Aabb.union(hull.aabb for hull in sources)
-    if (shape.aabb.min >= box.min - least).all() and (shape.aabb.max <= box.max + least).all():
+    if shape.kind == "box" or bool(((shape.aabb.min >= box.min - least) & (shape.aabb.max <= box.max + least)).all()):
         return 0.0
     around = geometry.convex_hull(np.concatenate([box.corners, *(hull.vertices for hull in mesh.hulls)]))
     return float(geometry.heights_above(shape.vertices, around).max())
