@@ -67,7 +67,7 @@ def measure_edit(before: SymbolicMesh, after: SymbolicMesh, trace: Iterable[Rule
 
 
 def forget_misfits(one: EditMeasures) -> EditMeasures:
-    """Return the measures of an edit that a person demonstrated, but did not look at: they need not know how it fits."""
+    """Return the measures of an edit that a person demonstrated: they need not have seen how it fits."""
     return replace(one, misfits=())
 
 
