@@ -80,7 +80,7 @@ def find_misfits(
     out, gaps = list[Misfit](), list[tuple[NarrowGap, str, Misfit | None]]()
     for new, one in made:
         name = (new.keeps_name and new.parent) or new.name
-        beyond = _measure_out(new.shape, one.sources, mesh, STICKS_OUT * length)
+        beyond = _measure_out(new.shape, one.sources, mesh, length)
         if beyond > STICKS_OUT * length:
             text = f"{name} sticks out of the asset by {beyond:.3g} m"
             out.append(Misfit("sticks out", text, (new.name,), beyond / length))
@@ -106,13 +106,15 @@ def _name_first(texts: Sequence[str]) -> str | None:
     return f"{texts[0]}{more}" if texts else None
 
 
-def _measure_out(shape: Shape, sources: Sequence[Hull], mesh: SymbolicMesh, least: float) -> float:
+def _measure_out(shape: Shape, sources: Sequence[Hull], mesh: SymbolicMesh, length: float) -> float:
     """How far [m] a shape reaches over the convex hull of a mesh and of the box around the hulls that it replaces; 0
-    where it does not reach over that box by more than `least` along any axis."""
+    for a box, and where it hardly reaches over that box; length: L of the run [m]."""
+    least = STICKS_OUT * length
     box = Aabb.union(hull.aabb for hull in sources)
     if shape.kind == "box" or bool(((shape.aabb.min >= box.min - least) & (shape.aabb.max <= box.max + least)).all()):
         return 0.0
-    around = geometry.convex_hull(np.concatenate([box.corners, *(hull.vertices for hull in mesh.hulls)]))
+    points = np.concatenate([box.corners, *(hull.vertices for hull in mesh.hulls)])
+    around = geometry.convex_hull(points, thicken=geometry.FLATNESS * length)
     return float(geometry.heights_above(shape.vertices, around).max())
 
 
