@@ -56,7 +56,7 @@ def find_narrow_gaps(
     box = Aabb.union(shape.aabb for shape in shapes)
     low, high = geometry.bounds([hull.aabb for hull in beside])
     apart = np.maximum(low - box.max, box.min - high).max(axis=1)
-    near = [beside[k] for k in np.flatnonzero(apart < box.diagonal)]
+    near = [beside[k] for k in np.flatnonzero(apart < box.diagonal).tolist()]
     first = len(shapes) + len(sources)
     everything = [*shapes, *(hull.shape for hull in (*sources, *near))]
     pairs = geometry.close_pairs(everything, box.diagonal, frozenset(range(first, len(everything))))
