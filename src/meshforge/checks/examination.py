@@ -185,7 +185,11 @@ def _adopt(plugin: Plugin, kind: Any) -> Callable[[], Check]:
 
 
 CHECKS: Registry[Callable[[], Check]] = Registry(
-    "checks", {kind.name: kind for kind in (*MEASURES, SpeedCheck)} | {name: partial(EngineCheck, name) for name in ENGINES}, _adopt
+    "checks",
+    {kind.name: kind for kind in MEASURES}
+    | {SpeedCheck.name: SpeedCheck}
+    | {name: partial(EngineCheck, name) for name in ENGINES},
+    _adopt,
 )
 
 

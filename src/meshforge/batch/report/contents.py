@@ -156,7 +156,7 @@ def sum_speeds(assets: Iterable[ReportAsset]) -> dict[str, tuple[str, str | None
         return {}
     contacts = [sum(pair[k].contacts for pair in runs) for k in (0, 1)]
     times = [sum(1000 / pair[k].steps for pair in runs) for k in (0, 1)]  # [ms]
-    remark = f"{times[0] / times[1]:.2g} times as fast, measured on this machine"
+    remark = f"{times[0] / times[1]:.1f} times as fast, measured on this machine"
     return {
         "contacts at the end": (f"{contacts[0]:,} → {contacts[1]:,}", format_change(*contacts)),
         "one step of all in MuJoCo": (f"{times[0]:.3g} ms → {times[1]:.3g} ms", remark),
