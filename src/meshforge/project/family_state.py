@@ -146,4 +146,4 @@ def _measure(
     program, templates = task.program, task.templates
     ran = program.run(mesh, templates, selections=batch.selections_of(meant, program), memo=memoize)
     after, _ = batch.replay_manual_edits(manual_edits, mesh, ran.mesh, program, templates)
-    return measure_edit(mesh, after, ran.trace)
+    return measure_edit(mesh, after, trace=ran.trace)

@@ -47,7 +47,7 @@ class EditMeasures:
     misfits: tuple[Misfit, ...] = ()
 
 
-def measure_edit(before: SymbolicMesh, after: SymbolicMesh, trace: Iterable[RuleTrace] = ()) -> EditMeasures:
+def measure_edit(before: SymbolicMesh, after: SymbolicMesh, *, trace: Iterable[RuleTrace] = ()) -> EditMeasures:
     """Return the measures of an edit; both meshes are in one frame, as a program leaves them; trace: of the program."""
     free, filled, freed = _compare_space(before, after)
     gone = {hull.name for hull in before.hulls} - {hull.name for hull in after.hulls}

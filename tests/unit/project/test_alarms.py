@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -98,9 +99,9 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many hulls each result has that was measured, filled as that goes on."""
     measured = list[int]()
 
-    def count(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
+    def count(before: SymbolicMesh, after: SymbolicMesh, **more: Any) -> EditMeasures:
         measured.append(len(after.hulls))
-        return measure_edit(before, after)
+        return measure_edit(before, after, **more)
 
     monkeypatch.setattr("meshforge.project.family_state.measure_edit", count)
     return measured
