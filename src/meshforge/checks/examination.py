@@ -187,7 +187,7 @@ def _adopt(plugin: Plugin, kind: Any) -> Callable[[], Check]:
 CHECKS: Registry[Callable[[], Check]] = Registry(
     "checks",
     {kind.name: kind for kind in MEASURES}
-    | {SpeedCheck.name: SpeedCheck}
+    | {"speed": SpeedCheck}
     | {name: partial(EngineCheck, name) for name in ENGINES},
     _adopt,
 )

@@ -8,7 +8,7 @@ from meshforge import geometry
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
-from meshforge.language.actions.misfit import Misfit, find_misfits
+from meshforge.language.actions.misfit import Misfit, describe_misfits, find_misfits
 from meshforge.language.hull_table import reference_length
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
@@ -74,8 +74,8 @@ def apply_action(
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
     notes = [action.note_on(mesh, selected_mask), *(edit.note for edit in edits)]
-    misfits, remarks = find_misfits(mesh, selected_mask, made)
-    notes += [*inheritance_notes((m for _, m in made), mesh), *remarks]
+    misfits = find_misfits(mesh, selected_mask, made)
+    notes += [*inheritance_notes((m for _, m in made), mesh), *describe_misfits(misfits)]
     return ActionResult(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else None,
         tuple(hull.name for hull, _ in made),

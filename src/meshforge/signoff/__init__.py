@@ -8,7 +8,7 @@ __getattr__, __all__ = export_lazily(
         "assessment": (
             "THRESHOLD Assessment GoalStatus Reason ReasonKind ReviewState ResultStatus ResultState ResultStatusWord"
         ),
-        "outliers": "EditMeasures describe_outliers forget_misfits measure_edit",
+        "outliers": "EditMeasures describe_outliers measure_edit",
         "question": "ExclusionReason HullPlace ReviewChoice ReviewQuestion ReviewReply question_of",
         "review": "assess_asset review_family",
     },

@@ -10,7 +10,6 @@ from meshforge.signoff.assessment import ResultState as ResultState
 from meshforge.signoff.assessment import ResultStatusWord as ResultStatusWord
 from meshforge.signoff.outliers import EditMeasures as EditMeasures
 from meshforge.signoff.outliers import describe_outliers as describe_outliers
-from meshforge.signoff.outliers import forget_misfits as forget_misfits
 from meshforge.signoff.outliers import measure_edit as measure_edit
 from meshforge.signoff.question import ExclusionReason as ExclusionReason
 from meshforge.signoff.question import HullPlace as HullPlace

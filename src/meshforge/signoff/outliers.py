@@ -1,7 +1,7 @@
 """How edits of a family differ in volume, extents, hulls and free space; and those that stand out."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from math import expm1, isfinite, log
 from typing import Literal, get_args
@@ -62,13 +62,8 @@ def measure_edit(before: SymbolicMesh, after: SymbolicMesh, *, trace: Iterable[R
         free=free,
         filled=filled,
         freed=freed,
-        misfits=tuple(one for line in trace for one in line.misfits if after.index.keys() >= {*one.hulls}),
+        misfits=tuple(one for line in trace for one in line.misfits if one.kind and {*one.hulls} <= {*after.index}),
     )
-
-
-def forget_misfits(one: EditMeasures) -> EditMeasures:
-    """Return the measures of an edit that a person demonstrated: they need not have seen how it fits."""
-    return replace(one, misfits=())
 
 
 def _sum_volumes(hulls: Sequence[Hull]) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from time import thread_time
 from typing import Any
 
@@ -29,10 +29,6 @@ class RunSpeed:
     rest: float | None
     steps: float
 
-    def describe_rest(self) -> str:
-        """Return when it comes to rest, in words."""
-        return "never" if self.rest is None else f"{self.rest:.3g} s"
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Speed(Measure):
@@ -43,20 +39,17 @@ class Speed(Measure):
 
     @property
     def description(self) -> str:
-        now, was = self.now, self.before
-        steps, contacts, rest = f"{now.steps:,.0f}", f"{now.contacts}", now.describe_rest()
-        if was:
-            steps = f"{was.steps:,.0f} → {steps} ({now.steps / was.steps:.1f} times)"
-            contacts, rest = f"{was.contacts} → {contacts}", f"{was.describe_rest()} → {rest}"
-        return (
-            f"steps of MuJoCo a second, measured on this machine: {steps}; contacts: {contacts}; at rest after: {rest}"
-        )
+        runs = [run for run in (self.before, self.now) if run]
+        steps, contacts = " → ".join(f"{run.steps:,.0f}" for run in runs), " → ".join(str(run.contacts) for run in runs)
+        rest = " → ".join("never" if run.rest is None else f"{run.rest:.3g} s" for run in runs)
+        factor = f" ({self.now.steps / self.before.steps:.1f} times)" if self.before else ""
+        more = f"contacts: {contacts}; at rest after: {rest}"
+        return f"steps of MuJoCo a second, measured on this machine: {steps}{factor}; {more}"
 
     def to_json(self) -> dict[str, Any]:
         """Return what is the same on every machine, times in seconds: no steps a second."""
-        rows = {"now": self.now, "before": self.before}
-        kept = {key: {k: v for k, v in asdict(run).items() if k != "steps"} for key, run in rows.items() if run}
-        return dict(kept)
+        runs = {"now": self.now, "before": self.before}
+        return {name: {"contacts": run.contacts, "rest": run.rest} for name, run in runs.items() if run}
 
 
 class SpeedCheck(MeasureCheck):

@@ -3,7 +3,7 @@ other hulls it narrows, and where it sticks out of the asset."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -24,17 +24,17 @@ MisfitKind = Literal["sticks out", "grows into", "clearance lost"]
 
 @dataclass(frozen=True, slots=True)
 class Misfit:
-    """Why a primitive that an action made may be wrong. text: a sentence; hulls: the names of the one that was made and
-    of the one beside it, if any; share: of the diagonal, how far it sticks out or narrows the gap."""
+    """Why a primitive that an action made may be wrong. kind: None for a gap that shrinks a little; hulls: names of the
+    one that was made and of the one beside it, if any; share: of the diagonal, how far it sticks out or narrows a gap.
+    """
 
-    kind: MisfitKind
+    kind: MisfitKind | None
     text: str
     hulls: tuple[str, ...]
     share: float
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class NarrowGap:
+class NarrowGap(NamedTuple):
     """A gap to a hull that shapes narrow, from `was` to `now` [m]."""
 
     was: float
@@ -69,41 +69,31 @@ def find_narrow_gaps(
     return sorted(found, key=lambda gap: gap.now - gap.was)
 
 
-def find_misfits(
-    mesh: SymbolicMesh, selected_mask: int, made: Sequence[tuple[Hull, NewShape]]
-) -> tuple[tuple[Misfit, ...], list[str]]:
-    """Return how primitives that an action made of selected hulls misfit; and sentences on that, and on each other gap
-    that they narrow to a hull that was not selected."""
+def find_misfits(mesh: SymbolicMesh, selected_mask: int, made: Sequence[tuple[Hull, NewShape]]) -> tuple[Misfit, ...]:
+    """Return how primitives that an action made of selected hulls misfit, the worst first, gaps to hulls that were not
+    selected among it."""
     made = [(new, one) for new, one in made if new.primitive]
     length = mesh.diagonal if mesh.scale is None else mesh.scale
     beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1] if made else []
-    out, gaps = list[Misfit](), list[tuple[NarrowGap, str, Misfit | None]]()
+    found = list[Misfit]()
     for new, one in made:
         name = (new.keeps_name and new.parent) or new.name
         beyond = _measure_out(new.shape, one.sources, mesh, length)
         if beyond > STICKS_OUT * length:
             text = f"{name} sticks out of the asset by {beyond:.3g} m"
-            out.append(Misfit("sticks out", text, (new.name,), beyond / length))
+            found.append(Misfit("sticks out", text, (new.name,), beyond / length))
         for gap in find_narrow_gaps([new.shape], one.sources, beside, mesh.contact_distance):
-            gaps.append((gap, text := gap.describe(name), _judge_gap(gap, text, new, mesh.contact_distance, length)))
-    out.sort(key=lambda one: -one.share)
-    gaps.sort(key=lambda row: (row[0].was - row[0].now, *row[1:2]), reverse=True)
-    misfits = (*out, *(misfit for _, _, misfit in gaps if misfit))
-    notes = [_name_first([one.text for one in out]), _name_first([text for _, text, _ in gaps])]
-    return misfits, [note for note in notes if note]
+            is_lost = gap.was > _LEAST_GAP * length and gap.now <= (1 - LOST) * gap.was
+            kind: MisfitKind = "grows into" if gap.now <= mesh.contact_distance else "clearance lost"
+            hulls, share = (new.name, gap.other.name), (gap.was - gap.now) / length
+            found.append(Misfit(kind if is_lost else None, gap.describe(name), hulls, share))
+    return tuple(sorted(found, key=lambda one: -one.share))
 
 
-def _judge_gap(gap: NarrowGap, text: str, new: Hull, contact_distance: float, length: float) -> Misfit | None:
-    """The misfit that a gap is, if it was one that counts and less than half of it is left."""
-    if gap.was <= _LEAST_GAP * length or gap.now > (1 - LOST) * gap.was:
-        return None
-    kind: MisfitKind = "grows into" if gap.now <= contact_distance else "clearance lost"
-    return Misfit(kind, text, (new.name, gap.other.name), (gap.was - gap.now) / length)
-
-
-def _name_first(texts: Sequence[str]) -> str | None:
-    more = f" (and {len(texts) - 1} more)" if len(texts) > 1 else ""
-    return f"{texts[0]}{more}" if texts else None
+def describe_misfits(misfits: Sequence[Misfit]) -> list[str]:
+    """Return a sentence on what sticks out, and one on gaps, as far as there is any: the worst, and how many more."""
+    sides = [[one.text for one in misfits if (one.kind == "sticks out") is is_out] for is_out in (True, False)]
+    return [f"{one[0]}{f' (and {len(one) - 1} more)' if len(one) > 1 else ''}" for one in sides if one]
 
 
 def _measure_out(shape: Shape, sources: Sequence[Hull], mesh: SymbolicMesh, length: float) -> float:
@@ -136,17 +126,15 @@ def _measure_beyond(shapes: Sequence[Shape], others: Sequence[Shape]) -> float:
 
 
 def _distances(points: Floats, shapes: Sequence[Shape]) -> Floats:
-    """Distances (n,) [m] of points (n, 3) from a union of convex shapes, 0 inside: a point's height above the planes of
-    a shape is at most its distance from that, so that few shapes have to be measured."""
-    heights = np.stack([geometry.heights_above(points, shape) for shape in shapes])
-    found: Floats = np.where((heights <= 0).any(axis=0), 0.0, np.inf)
-    for shape, height in zip(shapes, heights, strict=True):
-        near = np.flatnonzero(height < found)
-        corners = shape.vertices[shape.faces]
-        for start in range(0, len(near), 100):
-            part = near[start : start + 100]
+    """Distances (n,) [m] of points (n, 3) from a union of convex shapes, 0 inside."""
+    found = np.full(len(points), np.inf)
+    for shape in shapes:
+        heights, corners = geometry.heights_above(points, shape), shape.vertices[shape.faces]
+        found[heights <= 0] = 0.0
+        near = np.flatnonzero(heights < found)  # a height is at most the distance
+        for part in np.array_split(near, len(near) // 100 + 1):
             pairs = np.repeat(points[part], len(corners), axis=0)
             places = geometry.nearest_on_triangles(pairs, np.tile(corners, (len(part), 1, 1)))
-            lengths = np.linalg.norm(places - pairs, axis=1).reshape(len(part), -1).min(axis=1)
-            found[part] = np.minimum(found[part], lengths)
+            lengths = np.linalg.norm(places - pairs, axis=1).reshape(-1, len(corners))
+            found[part] = np.minimum(found[part], lengths.min(axis=1))
     return found

@@ -59,14 +59,10 @@ class Replace(Action):
     )
     within: float | None = field(
         default=None,
-        metadata={
-            "argument": arguments.OptionArgument("within", arguments.ShareArgument()),
-            "title": "Only within [share of the diagonal]",
-        },
+        metadata={"argument": arguments.OptionArgument("within", arguments.ShareArgument()), "title": "Only within"},
     )
     clear: bool = field(
-        default=False,
-        metadata={"argument": arguments.FlagArgument("clear"), "title": "Only where gaps stay"},
+        default=False, metadata={"argument": arguments.FlagArgument("clear"), "title": "Only where gaps stay"}
     )
 
     def conflict(self) -> str | None:
@@ -97,9 +93,8 @@ class Replace(Action):
         why = _find_mismatch(group, shapes, self)
         if why is None:
             return GroupEdit.insert(shapes, group, note=note)
-        names = [hull.name for hull in group.hulls]
-        note = f"{join_names(names, 3)} {'stays' if len(names) == 1 else 'stay'}: {why}"
-        return GroupEdit(removes=False, note=note, fits=False)
+        names, verb = join_names([hull.name for hull in group.hulls], 3), "stay" if group.hulls[1:] else "stays"
+        return GroupEdit(removes=False, note=f"{names} {verb}: {why}", fits=False)
 
     def phrase(self, whose: str) -> str:
         within = f"its surface is within {arguments.show_number(self.within)} of the diagonal" if self.within else ""
