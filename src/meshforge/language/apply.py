@@ -21,8 +21,8 @@ class ActionResult:
     """The outcome of one action.
 
     mesh: None where it stayed the same; made: names of the made hulls; sources: for each of them, the names of the
-    hulls it was made from; note: what a user should know; used: names that no later edit may give again; misfits: how
-    made primitives differ from what they replace.
+    hulls it was made from; note: what a user should know; used: names that no later edit may give again; misfits: of
+    made primitives.
     """
 
     mesh: SymbolicMesh | None
@@ -55,9 +55,7 @@ def apply_action(
     plugin = action.plugin
     with blame(plugin):
         groups = [
-            HullGroup(
-                tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates, mesh
-            )
+            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), mesh, templates)
             for part in action.groups(mesh, selected_mask)
         ]
         edits = [action.edit(group) for group in groups]

@@ -16,14 +16,7 @@ from meshforge.project.family_state import measure_results, read_family_state
 from meshforge.project.goals import read_goal_statuses
 from meshforge.project.learn import renew_program, update_classes
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
-from meshforge.signoff import (
-    THRESHOLD,
-    Assessment,
-    EditMeasures,
-    ReviewState,
-    describe_outliers,
-    review_family,
-)
+from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import LearningOutcome

@@ -179,9 +179,7 @@ def find_alarms(
     the same program on assets that a person demonstrated or accepted."""
     shown = list(shown)
     block = max([BLOCK, *(one.filled + MORE for one in shown if one.free >= _LEAST_FREE)])
-    seen = dict[str, float]()
-    for misfit in (misfit for one in shown for misfit in one.misfits):
-        seen[misfit.kind] = max(seen.get(misfit.kind, 0.0), WORSE * misfit.share)
+    seen = [misfit for one in shown for misfit in one.misfits]
     found = {name: [*_find_absolute(one, block), *_find_misfits(one, seen)] for name, one in measures.items()}
     known = [one for name, one in measures.items() if not found[name]]
     for figure in _FIGURES:
@@ -204,12 +202,13 @@ def _find_absolute(one: EditMeasures, block: float) -> Iterator[Alarm]:
         yield Alarm("block", f"nearly one solid block: {one.filled:.0%} of the free space is filled", float("inf"))
 
 
-def _find_misfits(one: EditMeasures, seen: Mapping[str, float]) -> Iterator[Alarm]:
-    """The worst misfit of each kind, where it is worse than those that were seen; seen: shares, by kind."""
+def _find_misfits(one: EditMeasures, seen: Sequence[Misfit]) -> Iterator[Alarm]:
+    """The worst misfit of each kind, where it is much worse than those that were seen."""
     for kind in get_args(MisfitKind):
-        own = [misfit for misfit in one.misfits if misfit.kind == kind]
-        if own and (worst := max(own, key=lambda misfit: misfit.share)).share > seen.get(kind, 0.0):
-            yield Alarm(kind, worst.text, float("inf"))
+        known = max((misfit.share for misfit in seen if misfit.kind == kind), default=0.0)
+        own = [misfit for misfit in one.misfits if misfit.kind == kind and misfit.share > WORSE * known]
+        if own:
+            yield Alarm(kind, max(own, key=lambda misfit: misfit.share).text, float("inf"))
 
 
 def _compare(

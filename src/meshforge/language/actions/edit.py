@@ -11,6 +11,7 @@ import numpy as np
 
 from meshforge.common import ProgramError
 from meshforge.geometry import FLATNESS, Aabb, Floats, Shape
+from meshforge.language.hull_table import reference_length
 from meshforge.symbolic import Hull, SymbolicMesh
 
 _EQUAL = 1e-9  # volumes of like hulls differ by rounding, which must not choose between them
@@ -21,13 +22,17 @@ _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
 class HullGroup:
     """The hulls that an action edits at once: all of C, or one body or component of it.
 
-    length: L of the run [m]; templates: by the paths that programs write; mesh: the whole, before the action.
+    mesh: the whole, before the action; templates: by the paths that programs write.
     """
 
     hulls: tuple[Hull, ...]
-    length: float
-    templates: Mapping[str, Template]
     mesh: SymbolicMesh
+    templates: Mapping[str, Template]
+
+    @property
+    def length(self) -> float:
+        """L of the run [m]."""
+        return reference_length(self.mesh)
 
     @cached_property
     def bounds(self) -> Aabb:

@@ -10,6 +10,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.geometry import Aabb, Floats, Shape
 from meshforge.language.actions.edit import NewShape
+from meshforge.language.hull_table import reference_length
 from meshforge.symbolic import Hull, SymbolicMesh
 
 STICKS_OUT = 0.02
@@ -73,9 +74,8 @@ def find_misfits(mesh: SymbolicMesh, selected_mask: int, made: Sequence[tuple[Hu
     """Return how primitives that an action made of selected hulls misfit, the worst first, gaps to hulls that were not
     selected among it."""
     made = [(new, one) for new, one in made if new.primitive]
-    length = mesh.diagonal if mesh.scale is None else mesh.scale
     beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1] if made else []
-    found = list[Misfit]()
+    found, length = list[Misfit](), reference_length(mesh)
     for new, one in made:
         name = (new.keeps_name and new.parent) or new.name
         beyond = _measure_out(new.shape, one.sources, mesh, length)
