@@ -149,7 +149,7 @@ def _run_program(
         seconds=time.perf_counter() - started,
         notes=(*job.notes, *draft.read_notes, *_label_notes(followed), *draft.notes),
         flags=flags,
-        measures=measure_edit(source, mesh),
+        measures=measure_edit(source, mesh, trace=result.trace),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),
     )
     if task.options.dry_run:

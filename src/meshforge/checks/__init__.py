@@ -13,6 +13,7 @@ __getattr__, __all__ = export_lazily(
         "goals.base": "Goal GoalSubject NotApplicableError",
         "physics.scene": "Failure",
         "physics.simulation": "BEFORE Physics",
+        "physics.speed": "Speed",
         "meshforge.engines": "Finding Severity",
     },
 )

@@ -23,5 +23,6 @@ from meshforge.checks.goals.base import NotApplicableError as NotApplicableError
 from meshforge.checks.physics.scene import Failure as Failure
 from meshforge.checks.physics.simulation import BEFORE as BEFORE
 from meshforge.checks.physics.simulation import Physics as Physics
+from meshforge.checks.physics.speed import Speed as Speed
 from meshforge.engines import Finding as Finding
 from meshforge.engines import Severity as Severity

@@ -14,6 +14,7 @@ from meshforge.checks.clearance import ClearanceCheck
 from meshforge.checks.fit import FitCheck
 from meshforge.checks.legality import check_legality
 from meshforge.checks.physics.simulation import PhysicsCheck
+from meshforge.checks.physics.speed import SpeedCheck
 from meshforge.common import Plugin, PluginError, Registry, UsageError, blame, suggest_among
 from meshforge.engines import ENGINES, Finding, check_limits, find_engine
 from meshforge.rendering import LengthUnit
@@ -159,7 +160,7 @@ def draw_examination(
 
 
 MEASURES: tuple[type[Check], ...] = (FitCheck, ClearanceCheck, PhysicsCheck)
-"""The checks of what can be measured, besides engines."""
+"""The checks of what can be measured, besides engines and speed."""
 
 
 class EngineCheck(MeasureCheck):
@@ -184,7 +185,11 @@ def _adopt(plugin: Plugin, kind: Any) -> Callable[[], Check]:
 
 
 CHECKS: Registry[Callable[[], Check]] = Registry(
-    "checks", {kind.name: kind for kind in MEASURES} | {name: partial(EngineCheck, name) for name in ENGINES}, _adopt
+    "checks",
+    {kind.name: kind for kind in MEASURES}
+    | {"speed": SpeedCheck}
+    | {name: partial(EngineCheck, name) for name in ENGINES},
+    _adopt,
 )
 
 

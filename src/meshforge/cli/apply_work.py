@@ -57,8 +57,8 @@ class ApplyArguments:
         list[str] | None,
         typer.Option(
             "--check",
-            help="fit, clearance, physics, an engine or a check of a plug-in: checks for the report, of what it shows. "
-            "May be repeated.",
+            help="fit, clearance, physics, speed, an engine or a check of a plug-in: checks for the report, of what it "
+            "shows. May be repeated.",
         ),
     ] = None
     min_confidence: Annotated[

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints, cross, distinct
 from meshforge.geometry.connectivity import edges_of
-from meshforge.geometry.shape import Polytope
+from meshforge.geometry.shape import Polytope, Shape
 
 _MOST_PAIRS_CHECKED = 50_000_000  # vertices times faces
 _MOST_PAIRS_AT_ONCE = 1_000_000  # points times planes; beyond, most are ruled out by the boxes of groups of points
@@ -173,7 +173,7 @@ def normals_of(hull: Polytope) -> Floats:
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny))
 
 
-def heights_above(points: Floats, hull: Polytope) -> Floats:
+def heights_above(points: Floats, hull: Shape) -> Floats:
     """Return how far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
     a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)

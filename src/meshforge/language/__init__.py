@@ -8,6 +8,7 @@ __getattr__, __all__ = export_lazily(
         "actions.base": "AXES Action ActionIcon",
         "actions.basic": "Add Delete Each Merge Scale Shrink",
         "actions.edit": "GroupEdit HullGroup NewShape Template",
+        "actions.misfit": "Misfit MisfitKind",
         "actions.replace": "Replace",
         "apply": "apply_action",
         "arguments": (

@@ -12,6 +12,8 @@ from meshforge.language.actions.edit import GroupEdit as GroupEdit
 from meshforge.language.actions.edit import HullGroup as HullGroup
 from meshforge.language.actions.edit import NewShape as NewShape
 from meshforge.language.actions.edit import Template as Template
+from meshforge.language.actions.misfit import Misfit as Misfit
+from meshforge.language.actions.misfit import MisfitKind as MisfitKind
 from meshforge.language.actions.replace import Replace as Replace
 from meshforge.language.apply import apply_action as apply_action
 from meshforge.language.arguments import PRIMITIVES as PRIMITIVES

@@ -4,12 +4,11 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from meshforge import geometry
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
+from meshforge.language.actions.misfit import Misfit, describe_misfits, find_misfits
 from meshforge.language.hull_table import reference_length
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
@@ -22,7 +21,8 @@ class ActionResult:
     """The outcome of one action.
 
     mesh: None where it stayed the same; made: names of the made hulls; sources: for each of them, the names of the
-    hulls it was made from; note: what a user should know; used: names that no later edit may give again.
+    hulls it was made from; note: what a user should know; used: names that no later edit may give again; misfits: of
+    made primitives.
     """
 
     mesh: SymbolicMesh | None
@@ -30,6 +30,7 @@ class ActionResult:
     note: str | None = None
     sources: tuple[tuple[str, ...], ...] = ()
     used: frozenset[str] = frozenset()
+    misfits: tuple[Misfit, ...] = ()
 
 
 def apply_action(
@@ -54,7 +55,7 @@ def apply_action(
     plugin = action.plugin
     with blame(plugin):
         groups = [
-            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
+            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), mesh, templates)
             for part in action.groups(mesh, selected_mask)
         ]
         edits = [action.edit(group) for group in groups]
@@ -71,13 +72,15 @@ def apply_action(
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
     notes = [action.note_on(mesh, selected_mask), *(edit.note for edit in edits)]
-    notes += [*inheritance_notes((m for _, m in made), mesh), describe_lost_gaps(mesh, selected_mask, made)]
+    misfits = find_misfits(mesh, selected_mask, made)
+    notes += [*inheritance_notes((m for _, m in made), mesh), *describe_misfits(misfits)]
     return ActionResult(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else None,
         tuple(hull.name for hull, _ in made),
         "; ".join(dict.fromkeys(note for note in notes if note)) or None,
         tuple(tuple(source.name for source in m.sources) for _, m in made),
         frozenset(taken),
+        misfits,
     )
 
 
@@ -127,7 +130,7 @@ def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None)
     """The hulls of groups that an edit left whole (a merge of one), with the label that what is made would take."""
     if label is None:
         return {}
-    whole = [g for g, edit in zip(groups, edits, strict=True) if not edit.removes and not edit.made]
+    whole = [g for g, edit in zip(groups, edits, strict=True) if edit.fits and not edit.removes and not edit.made]
     return {hull.name: hull.with_label(_label_of_new(hull, label)) for group in whole for hull in group.hulls}
 
 
@@ -144,34 +147,6 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     if not differing:
         return None
     return f"{join_names(differing)} as {made.main_source.name} has it; the hulls beside it have another"
-
-
-def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:
-    """Return a sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and
-    by more than the contact distance; None where there is none."""
-    beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1]
-    made = [(new, one) for new, one in made if new.primitive]
-    if not beside or not made:
-        return None
-    lost, (low, high) = [], geometry.bounds([hull.aabb for hull in beside])
-    for new, one in made:
-        reach = new.aabb.diagonal  # a wider gap is no matter of this part
-        apart = np.maximum(low - new.aabb.max, new.aabb.min - high).max(axis=1)
-        near = [beside[k] for k in np.flatnonzero(apart < reach)]
-        shapes = [new.shape, *(hull.shape for hull in one.sources), *(hull.shape for hull in near)]
-        first = 1 + len(one.sources)
-        pairs = geometry.close_pairs(shapes, reach, frozenset(range(first, len(shapes))))
-        for k, hull in enumerate(near, first):
-            was = min(pairs.get((source, k), reach) for source in range(1, first))
-            now = pairs.get((0, k), reach)
-            if was - now > max(was / 10, mesh.contact_distance):
-                name = (new.keeps_name and new.parent) or new.name
-                lost.append((was - now, was, now, name, hull.name))
-    if not lost:
-        return None
-    _, was, now, name, other = max(lost)
-    more = f" (and {len(lost) - 1} more)" if len(lost) > 1 else ""
-    return f"the gap between {name} and {other} shrinks from {was:.3g} m to {now:.3g} m{more}"
 
 
 def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry.Shape:

@@ -10,6 +10,7 @@ from meshforge import geometry
 from meshforge.common import DemonstrationError, MeshForgeError, suggest_name
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import Template
+from meshforge.language.actions.misfit import Misfit
 from meshforge.language.apply import ActionResult, apply_action
 from meshforge.language.extractors.base import select_mask
 from meshforge.language.hull_table import EXTREMITY
@@ -36,7 +37,7 @@ class RuleTrace:
     """What one rule did on a mesh; rule: its number from 1; selected, made, removed: names of hulls.
 
     sources: for each made hull, the names of the hulls it was made from; note: what a user should know; error: why it
-    was skipped.
+    was skipped; misfits: how primitives that it made differ from what they replace.
     """
 
     rule: int
@@ -46,6 +47,7 @@ class RuleTrace:
     sources: tuple[tuple[str, ...], ...] = ()
     removed: tuple[str, ...] = ()
     error: str | None = None
+    misfits: tuple[Misfit, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,7 +128,8 @@ class Replay:
             raise (error.at(f"{self.name}, rule {self.number}") if self.name else error) from None
         mesh = done.mesh or self.mesh
         removed = tuple(hull.name for hull in self.mesh.hulls if hull.name not in mesh.index) if done.mesh else ()
-        line = RuleTrace(self.number, self.mesh.names_of(mask), done.made, done.note, done.sources, removed)
+        names, misfits = self.mesh.names_of(mask), done.misfits
+        line = RuleTrace(self.number, names, done.made, done.note, done.sources, removed, misfits=misfits)
         return replace(self, mesh=mesh, used=done.used, trace=(*self.trace, line))
 
     def skip(self, error: str | None = None) -> Self:

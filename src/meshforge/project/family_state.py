@@ -144,5 +144,6 @@ def _measure(
     meant: Sequence[batch.RuleSelection],
 ) -> EditMeasures:
     program, templates = task.program, task.templates
-    after = program.run(mesh, templates, selections=batch.selections_of(meant, program), memo=memoize).mesh
-    return measure_edit(mesh, batch.replay_manual_edits(manual_edits, mesh, after, program, templates)[0])
+    ran = program.run(mesh, templates, selections=batch.selections_of(meant, program), memo=memoize)
+    after, _ = batch.replay_manual_edits(manual_edits, mesh, ran.mesh, program, templates)
+    return measure_edit(mesh, after, trace=ran.trace)

@@ -4,7 +4,7 @@ A sign-off rests on the digests of all that decides an edit: it is void when one
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions
@@ -103,7 +103,8 @@ def assess_family(
     family = model_family(list(meshes.values()))
     if stop and stop():
         return None
-    shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
+    shown = [replace(measures[asset], misfits=()) for asset in state.demos if asset in measures]
+    shown += [measures[asset] for asset in state.accepted if asset in measures]
     goals = read_goal_statuses(store, program, basis.inputs)
     found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown), goals)
     return FamilyAssessment(found, state, program, basis, measures)

@@ -4,13 +4,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import expm1, isfinite, log
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import GeometryError
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull, planes_of
+from meshforge.language import Misfit, MisfitKind, RuleTrace
 from meshforge.symbolic import Hull, SymbolicMesh
 
 POINTS = 2048
@@ -30,6 +31,7 @@ class EditMeasures:
 
     Of the convex hull of all hulls before, which turns with the asset, free: the share that none of them covers;
     filled: the share of the free space that hulls cover after; freed: the share of the covered space free after.
+    misfits: of primitives that it made and left.
     """
 
     hulls_before: int
@@ -42,10 +44,11 @@ class EditMeasures:
     free: float
     filled: float
     freed: float
+    misfits: tuple[Misfit, ...] = ()
 
 
-def measure_edit(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
-    """Return the measures of an edit; both meshes are in one frame, as a program leaves them."""
+def measure_edit(before: SymbolicMesh, after: SymbolicMesh, *, trace: Iterable[RuleTrace] = ()) -> EditMeasures:
+    """Return the measures of an edit; both meshes are in one frame, as a program leaves them; trace: of the program."""
     free, filled, freed = _compare_space(before, after)
     gone = {hull.name for hull in before.hulls} - {hull.name for hull in after.hulls}
     return EditMeasures(
@@ -59,6 +62,7 @@ def measure_edit(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
         free=free,
         filled=filled,
         freed=freed,
+        misfits=tuple(one for line in trace for one in line.misfits if one.kind and {*one.hulls} <= {*after.index}),
     )
 
 
@@ -132,12 +136,14 @@ LEAST_FAMILY = 4
 BLOCK, MORE = 0.5, 0.15
 """An edit that fills such a share of the free space of an asset makes one solid block of it, unless the same was shown:
 then one that fills so much more than any that a person showed."""
+WORSE = 1.5
+"""A primitive that misfits so much more than any in results that a person accepted stands out."""
 _LIMIT = 5.0  # robust z from which on an edit stands out
 _DEVIATION = 1.4826  # of a normal distribution, in median absolute deviations
 _LEAST_SHARE = 1e-3  # smaller shares of a volume or an extent count as this
 _LEAST_FREE = 0.1  # of the box of an asset: in less free space points tell nothing
 
-AlarmKind = Literal["deleted", "block", "volume", "extent", "hulls", "filled", "freed"]
+AlarmKind = Literal["deleted", "block", "volume", "extent", "hulls", "filled", "freed"] | MisfitKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,8 +177,10 @@ def find_alarms(
 ) -> dict[str, tuple[Alarm, ...]]:
     """Return the alarms of those edits of a family that have any, the farthest out first; measures: by asset; shown: of
     the same program on assets that a person demonstrated or accepted."""
+    shown = list(shown)
     block = max([BLOCK, *(one.filled + MORE for one in shown if one.free >= _LEAST_FREE)])
-    found: dict[str, list[Alarm]] = {name: list(_find_absolute(one, block)) for name, one in measures.items()}
+    seen = [misfit for one in shown for misfit in one.misfits]
+    found = {name: [*_find_absolute(one, block), *_find_misfits(one, seen)] for name, one in measures.items()}
     known = [one for name, one in measures.items() if not found[name]]
     for figure in _FIGURES:
         for name, alarm in _compare(figure, measures, known):
@@ -192,6 +200,15 @@ def _find_absolute(one: EditMeasures, block: float) -> Iterator[Alarm]:
         yield Alarm("deleted", "no hull is left", float("inf"))
     if one.free >= _LEAST_FREE and one.filled >= block:
         yield Alarm("block", f"nearly one solid block: {one.filled:.0%} of the free space is filled", float("inf"))
+
+
+def _find_misfits(one: EditMeasures, seen: Sequence[Misfit]) -> Iterator[Alarm]:
+    """The worst misfit of each kind, where it is much worse than those that were seen."""
+    for kind in get_args(MisfitKind):
+        known = max((misfit.share for misfit in seen if misfit.kind == kind), default=0.0)
+        own = [misfit for misfit in one.misfits if misfit.kind == kind and misfit.share > WORSE * known]
+        if own:
+            yield Alarm(kind, max(own, key=lambda misfit: misfit.share).text, float("inf"))
 
 
 def _compare(

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -365,9 +365,11 @@ class Store:
         return read_derived(self.layout.assessment, AssessmentFile)
 
     def reference_measures(self) -> list[signoff.EditMeasures]:
-        """Return the measures of edits that a person showed, accepted or corrected, as the last review found them."""
-        last = self.assessment()
-        return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []
+        """Return the measures of edits that a person showed, accepted or corrected, as the last review found them; of
+        what was shown without misfits, which whoever shows it need not have seen."""
+        last, demos = self.assessment(), self.demonstration_ids()
+        found = [(asset, one.measures) for asset, one in last.assets.items() if one.looked_at] if last else []
+        return [replace(one, misfits=()) if asset in demos else one for asset, one in found if one]
 
     def write_assessment(self, found: AssessmentFile) -> None:
         """Keep how the family stands."""

@@ -1,10 +1,14 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import numpy as np
 import pytest
 
+from meshforge.batch.report.contents import ReportAsset, sum_speeds
+from meshforge.checks import CheckOptions, Speed, examine_mesh
+from meshforge.checks.physics import speed
 from meshforge.checks.physics.mechanism import check_masses
 from meshforge.checks.physics.simulation import simulate
 from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull, inertia
@@ -138,3 +142,31 @@ def test_very_many_bodies_in_a_chain_are_refused_or_simulated_never_more() -> No
 
     assert simulate(chain(60)).rest is not None
     assert simulate(chain(600)).refused == "more than 500 bodies"
+
+
+def test_the_worth_of_an_edit_is_contacts_and_rest_in_json_and_steps_of_this_machine_in_words() -> None:
+    feet = [box([x, y, 0], [x + 0.1, y + 0.1, 1]) for x, y in itertools.product((0, 0.9), repeat=2)]
+    before, needle = cup(*feet, box([0, 0, 1], [1, 1, 1.1]), shown=()), cup(feet[0], shown=())
+    found, again = (examine_mesh(needle, CheckOptions(("speed",)), before) for _ in range(2))
+    assert found.to_json() == again.to_json()
+    assert found.to_json()["speed"] == {"now": {"contacts": 4, "rest": 0.0}, "before": {"contacts": 16, "rest": 0.0}}
+    assert re.search(
+        r"steps of MuJoCo a second, measured on this machine: [\d,]+ → [\d,]+ \(\d+\.\d times\); "
+        r"contacts: 16 → 4; at rest after: 0 s → 0 s$",
+        found.descriptions[0],
+    )
+    figures = sum_speeds(ReportAsset(name, before, needle, checked=found) for name in "ab")
+    assert figures["contacts at the end"] == ("32 → 8", "−75 %")
+    assert str(figures["one step of all in MuJoCo"][1]).endswith("times as fast, measured on this machine")
+
+
+def test_what_falls_comes_to_rest_later_and_what_cannot_be_simulated_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = CheckOptions(("speed",))
+    lying = convex_hull(np.array([[0, 0, 0], [0.1, 0.02, 1], [-0.05, 0.1, 1], [-0.05, -0.1, 1]], dtype=float))
+    found = examine_mesh(cup(lying, shown=()), wanted).get("speed", Speed)
+    assert found and found.before is None and found.now.rest is not None and 0.3 < found.now.rest < 6
+    monkeypatch.setattr(speed, "HULLS", 0)
+    many = examine_mesh(cup(lying, shown=()), wanted)
+    assert many.unmeasured["speed"].startswith("speed was not measured: it has no hull, or more than 0 hulls")
+    monkeypatch.setattr("meshforge.common.plugins.find_spec", lambda name: None)
+    assert "needs MuJoCo, which is not installed" in examine_mesh(cup(lying, shown=()), wanted).unmeasured["speed"]

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from meshforge.common import GeometryError
@@ -24,6 +26,7 @@ from meshforge.geometry import (
 )
 from meshforge.language import Add, Each, Replace, Scale, Shrink
 from meshforge.symbolic import SymbolicMesh
+from tests.examples import examples
 from tests.unit.language.scenes import box, hull, mesh
 from tests.unit.language.test_actions import applied
 
@@ -137,7 +140,8 @@ def test_what_encloses_takes_the_gap_and_says_so_and_what_does_not_keeps_it() ->
         grip, wall = result.mesh.hull_of("handle~1").shape, result.mesh.hull_of("wall").shape
         notes[fit] = distance(grip, wall), result.note
     assert notes["tight"][0] < 0.01
-    assert notes["tight"][1] == f"the gap between handle and wall shrinks from 0.02 m to {notes['tight'][0]:.3g} m"
+    gap = f"the gap between handle and wall shrinks from 0.02 m to {notes['tight'][0]:.3g} m"
+    assert notes["tight"][1] == f"handle sticks out of the asset by 0.0157 m; {gap}"
     assert notes["inscribed"][0] >= 0.02 and notes["inscribed"][1] is None
     assert notes["volume"][0] > notes["tight"][0]
 
@@ -145,6 +149,64 @@ def test_what_encloses_takes_the_gap_and_says_so_and_what_does_not_keeps_it() ->
 def test_a_gap_to_what_was_selected_too_is_no_loss() -> None:
     scene = finger_gap()
     assert applied(scene, Each(Replace("box")), "handle", "wall").note is None
+
+
+def trough(width: float = 0.8) -> SymbolicMesh:
+    """A floor between two walls, `width` [m] apart, 2 m long and 1 m high."""
+    slabs = ((0, width, 0, 0.1), (-0.1, 0, 0, 1), (width, width + 0.1, 0, 1))
+    return mesh(*(hull(f"slab{k}", box([a, 0, c], [b, 2, d]), "leg") for k, (a, b, c, d) in enumerate(slabs)))
+
+
+def fits(scene: SymbolicMesh, action: Replace | Each) -> bool:
+    return bool(applied(scene, action).made)
+
+
+def test_within_is_the_distance_of_surfaces_in_shares_of_the_diagonal() -> None:
+    scene = trough()
+    mouth = 0.4 / scene.diagonal  # from the middle of the mouth to a wall
+    assert fits(scene, Replace("box", within=1.03 * mouth)) and not fits(scene, Replace("box", within=0.95 * mouth))
+    lid = mesh(*scene.hulls, *(hull(f"lid{k}", box(*b)) for k, b in enumerate((
+        ([0, 0, 0.9], [0.8, 2, 1]), ([0, 0, 0.1], [0.8, 0.1, 0.9]), ([0, 1.9, 0.1], [0.8, 2, 0.9])))))  # fmt: skip
+    assert fits(lid, Replace("box", within=1e-6))  # hollow, but closed: the outer surface counts
+    bar = mesh(hull("a", box([0, 0, 0], [4, 1, 1])))
+    cut = (3 - 0.5 * np.sqrt(3) + 0.5) / 2 / bar.diagonal  # an end of the bar lies out of the ball inside by more
+    assert not fits(bar, Replace("sphere", "inscribed", within=cut)) and fits(bar, Replace("box", within=1e-9))
+    assert fits(bar, Replace("wedge.obj", within=0.17)) and not fits(bar, Replace("wedge.obj", within=0.16))
+
+
+def test_what_does_not_fit_stays_as_it_is_and_says_so() -> None:
+    scene = mesh(*trough().hulls, hull("post", box([5, 0, 0], [5.1, 0.1, 1]), "leg"))
+    result = applied(scene, Each(Replace("box", within=0.02)), label="foot")
+    assert result.mesh.hulls[:3] == scene.hulls[:3] and [one.label for one in result.mesh.hulls] == [
+        *["leg"] * 3,
+        "foot",
+    ]
+    assert result.made == ("post~1",) and result.note is not None
+    assert result.note.startswith("slab0, slab1, slab2 stay: their surfaces would be 0.3")
+    assert result.note.endswith(" m apart, more than 0.113 m")
+
+
+def test_clear_keeps_gaps_to_all_but_what_was_touched() -> None:
+    one, far = box([0, 0, 0], [1, 1, 1]), box([0, 0, 1.5], [1, 1, 2.5])
+    shelf = hull("shelf", box([-1, -1, -0.1], [2, 2, 0]))
+    rounded = Replace("sphere", "native", clear=True)
+    assert fits(mesh(hull("a", one), shelf), Replace("box", clear=True))
+    assert applied(mesh(hull("a", one), shelf), rounded, "a").made  # grows into what it touched before
+    assert not applied(mesh(hull("a", one), hull("b", far)), rounded, "a").made
+    assert not fits(mesh(hull("a", one), hull("b", far)), Each(rounded))  # of Each, other components count, too
+    assert fits(mesh(hull("a", one), hull("b", far)), Replace("box", clear=True))
+
+
+@given(st.floats(0.01, 100), st.sampled_from([0.9, 1.1]), st.integers(0, 3), st.permutations(range(3)), st.booleans())
+@examples(25)
+def test_whether_it_fits_depends_on_neither_scale_nor_turn_nor_order(
+    scale: float, factor: float, quarters: int, order: list[int], at_any_angle: bool
+) -> None:
+    scene, turn = trough(), np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    action = Replace("box", "tight" if at_any_angle else None, within=factor * 0.4 / scene.diagonal, clear=True)
+    pose = scale * np.linalg.matrix_power(turn, quarters)
+    moved = [hull(one.name, one.shape.transform(pose, np.ones(3))) for one in scene.hulls]
+    assert fits(mesh(*(moved[k] for k in order)), action) == fits(scene, action) == (factor > 1)
 
 
 def test_scaling_parts_that_do_not_touch_says_that_they_move() -> None:

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from meshforge.batch import IN_PROCESS
-from meshforge.language import Delete, Program
+from meshforge.language import Action, Delete, Each, Program, Replace
 from meshforge.project import Project
 from meshforge.project.family_state import measure_results
+from meshforge.project.review import review_project
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import THRESHOLD, EditMeasures, describe_outliers, measure_edit
+from meshforge.signoff.assessment import STANDS_OUT
 from meshforge.symbolic import SymbolicMesh
+from tests.unit.project.microwaves import NAMES, show_microwaves
 from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
 
 TURNED = "labels top, leg, rail\norient +Z: Is(leg) -> Is(top)\n\nIs(leg) => Each(Merge)\n"
@@ -56,14 +60,48 @@ def test_an_asset_on_which_the_program_cannot_run_has_no_result(racks: Project) 
     assert find_all(racks) == {}
 
 
+@pytest.mark.parametrize(
+    ("action", "label", "why"),
+    [
+        (Replace("cylinder", "native", "X"), "plate", "disc sticks out of the asset by"),
+        (Each(Replace("capsule", "tight")), "handle", "and door shrinks from 0.0141 m to 0 m"),
+    ],
+)
+def test_a_primitive_that_sticks_out_or_grows_into_another_part_stands_out(
+    tmp_path: Path, action: Action, label: str, why: str
+) -> None:
+    project = show_microwaves(tmp_path, {label: action})
+    found = find_all(project)
+    assert [*found] == NAMES and any(why in text for text in found[NAMES[0]])
+    list(project.apply(execution=IN_PROCESS))
+    assert find_all(project) == found
+    standing = review_project(project, execution=IN_PROCESS).assessment.assets[NAMES[4]]
+    assert standing.confidence <= STANDS_OUT and [one.text for one in standing.reasons if one.kind == "alarm"]
+    project.set_verdict(NAMES[2], "accepted")  # a person looked at one
+    freed = review_project(project, execution=IN_PROCESS).assessment.assets[NAMES[4]]
+    assert not [one for one in freed.reasons if one.kind == "alarm"]
+
+
+def test_discs_that_lie_flat_and_bars_that_keep_their_gap_do_not_stand_out(tmp_path: Path) -> None:
+    bars = Each(Replace("capsule", "tight", clear=True))
+    project = show_microwaves(tmp_path, {"plate": Replace("cylinder", "native"), "handle": bars})
+    program = project.program()
+    assert program and [rule.action for rule in program.rules] == [Replace("cylinder", "native"), bars]
+    assert find_all(project) == {}
+    made = program.run(project.mesh(NAMES[4]), {})
+    assert made.trace[1].made == () and "bar_a stays: the gap between it and bar_b would shrink" in str(
+        made.trace[1].note
+    )
+
+
 @pytest.fixture
 def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many hulls each result has that was measured, filled as that goes on."""
     measured = list[int]()
 
-    def count(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
+    def count(before: SymbolicMesh, after: SymbolicMesh, **more: Any) -> EditMeasures:
         measured.append(len(after.hulls))
-        return measure_edit(before, after)
+        return measure_edit(before, after, **more)
 
     monkeypatch.setattr("meshforge.project.family_state.measure_edit", count)
     return measured

@@ -105,7 +105,7 @@ def test_a_form_makes_an_action(form: ActionForm) -> None:
 def test_a_form_with_everything_filled_in_is_an_action_where_its_words_go_together() -> None:
     texts = {form.name: str(read_action(filled(form, required=False), "x")[0]) for form in FORMS}
     assert texts["Add"] == 'Add(+X, "part.obj", keep)'
-    assert texts["Replace"] == "Replace(capsule, native, X)"
+    assert texts["Replace"] == "Replace(capsule, native, X, clear)"
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
@@ -117,6 +117,7 @@ def write_report(
             options.progress()
     drawn = [shown for _, shown in cards if shown]
     figures = header.figures or contents.RunFigures.of_assets(assets)
+    figures = replace(figures, more={**figures.more, **contents.sum_speeds(assets)})
     page = _load_template().render(
         **_SETTINGS,
         header=header,

@@ -11,7 +11,8 @@ import numpy as np
 
 from meshforge.common import ProgramError
 from meshforge.geometry import FLATNESS, Aabb, Floats, Shape
-from meshforge.symbolic import Hull
+from meshforge.language.hull_table import reference_length
+from meshforge.symbolic import Hull, SymbolicMesh
 
 _EQUAL = 1e-9  # volumes of like hulls differ by rounding, which must not choose between them
 _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
@@ -21,12 +22,17 @@ _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
 class HullGroup:
     """The hulls that an action edits at once: all of C, or one body or component of it.
 
-    length: L of the run [m]; templates: by the paths that programs write.
+    mesh: the whole, before the action; templates: by the paths that programs write.
     """
 
     hulls: tuple[Hull, ...]
-    length: float
+    mesh: SymbolicMesh
     templates: Mapping[str, Template]
+
+    @property
+    def length(self) -> float:
+        """L of the run [m]."""
+        return reference_length(self.mesh)
 
     @cached_property
     def bounds(self) -> Aabb:
@@ -75,11 +81,13 @@ class NewShape:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class GroupEdit:
-    """What an action does to one group; removes: whether its hulls go."""
+    """What an action does to one group; removes: whether its hulls go; fits: False where they stay as they are, since
+    what would be made does not fit."""
 
     made: tuple[NewShape, ...] = ()
     removes: bool = True
     note: str | None = None
+    fits: bool = True
 
     def replaces_one(self, made: NewShape) -> bool:
         """Return whether a made shape takes the place of one hull alone."""

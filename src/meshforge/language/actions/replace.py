@@ -7,10 +7,12 @@ from typing import ClassVar, Literal, get_args
 import numpy as np
 
 from meshforge import geometry
+from meshforge.common import join_names
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull
 from meshforge.language import arguments
 from meshforge.language.actions.base import Action, ActionIcon
 from meshforge.language.actions.edit import GroupEdit, HullGroup
+from meshforge.language.actions.misfit import find_narrow_gaps, measure_mismatch
 
 Fit = Literal["native", "tight", "inscribed", "volume", "longest"]
 Side = Literal["X", "Y", "Z"]
@@ -31,12 +33,15 @@ _FIT_TEXTS: Mapping[Fit, str] = {
 _TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
 
 
+_SLACK = 1e-9  # of the diagonal, against rounding
+
+
 @dataclass(frozen=True, slots=True)
 class Replace(Action):
     """Replaces the selected hulls of each body by a primitive or a template that fills their bounding box."""
 
     by_body: ClassVar[bool] = True
-    planned: ClassVar[tuple[str, ...]] = ("within", "clear", "to")
+    planned: ClassVar[tuple[str, ...]] = ("to",)
     key: ClassVar[str] = "R"
     icon: ClassVar[ActionIcon] = "replace"
     geometry: str = field(metadata={"argument": arguments.PrimitiveOrFileArgument(), "title": "By"})
@@ -51,6 +56,13 @@ class Replace(Action):
     radius: float | None = field(
         default=None,
         metadata={"argument": arguments.OptionArgument("radius", arguments.LengthArgument()), "title": "Radius [m]"},
+    )
+    within: float | None = field(
+        default=None,
+        metadata={"argument": arguments.OptionArgument("within", arguments.ShareArgument()), "title": "Only within"},
+    )
+    clear: bool = field(
+        default=False, metadata={"argument": arguments.FlagArgument("clear"), "title": "Only where gaps stay"}
     )
 
     def conflict(self) -> str | None:
@@ -74,12 +86,34 @@ class Replace(Action):
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if self.templates:
-            return GroupEdit.insert(fit_template(group, self.geometry, turned=self.fit == "longest"), group)
-        shape = fit_primitive(group, self)
-        return GroupEdit.insert((shape,), group, note=_note_on_fit(group, self, shape))
+            shapes, note = fit_template(group, self.geometry, turned=self.fit == "longest"), None
+        else:
+            shape = fit_primitive(group, self)
+            shapes, note = (shape,), _note_on_fit(group, self, shape)
+        why = _find_mismatch(group, shapes, self)
+        if why is None:
+            return GroupEdit.insert(shapes, group, note=note)
+        names, verb = join_names([hull.name for hull in group.hulls], 3), "stay" if group.hulls[1:] else "stays"
+        return GroupEdit(removes=False, note=f"{names} {verb}: {why}", fits=False)
 
     def phrase(self, whose: str) -> str:
-        return f"replaced by {_describe_substitute(self, whose)}"
+        within = f"its surface is within {arguments.show_number(self.within)} of the diagonal" if self.within else ""
+        conditions = " and ".join(filter(None, [within, "no gap to another hull shrinks" if self.clear else ""]))
+        return f"replaced by {_describe_substitute(self, whose)}{conditions and f', where {conditions}'}"
+
+
+def _find_mismatch(group: HullGroup, shapes: Sequence[Shape], action: Replace) -> str | None:
+    """Why a group stays, as what would replace it does not meet the conditions of the action; None where it does."""
+    if action.within is not None:
+        most = action.within * group.length
+        found = measure_mismatch(shapes, [hull.shape for hull in group.hulls])
+        if found > most + _SLACK * group.length:
+            return f"their surfaces would be {found:.3g} m apart, more than {most:.3g} m"
+    if action.clear:
+        beside = [hull for hull in group.mesh.hulls if hull not in group.hulls]
+        gaps = find_narrow_gaps(shapes, group.hulls, beside, group.mesh.contact_distance)
+        return gaps[0].describe("it" if len(group.hulls) == 1 else "them", "would shrink") if gaps else None
+    return None
 
 
 def fit_primitive(group: HullGroup, action: Replace) -> Shape:
