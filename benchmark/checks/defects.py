@@ -1,4 +1,4 @@
-"""Defect defects: what `meshforge check` finds of them on assets of the corpus, by the plan in `defects.toml`."""
+"""Planted defects: what `meshforge check` finds of them on assets of the corpus, by the plan in `defects.toml`."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     own = {row["asset"]: row["own"] for row in rows}
     return Result(
         "defects",
-        "Defect defects",
+        "Planted defects",
         (
             Table("Found", _COLUMNS, tuple(_count(name, defects) for name in _names("defect"))),
             Table("Alarms on harmless changes", _COLUMNS, tuple(_count(name, harmless) for name in _names("harmless"))),

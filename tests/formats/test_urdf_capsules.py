@@ -100,7 +100,7 @@ def test_apply_has_the_flag_and_a_project_the_setting(tmp_path: Path) -> None:
     (tmp_path / "project" / "program.mf").write_text(PROGRAM)
     settings = tmp_path / "project" / "meshforge.toml"
     settings.write_text(f"urdf_capsules = true\n{settings.read_text()}")
-    assert meshforge("apply", "project", cwd=tmp_path).code == 0
+    assert meshforge("apply", "project", "--accept-outliers", cwd=tmp_path).code == 0
     (out,) = (tmp_path / "project" / "edited").rglob("*.urdf")
     assert len(capsules(out)) == 1
     out.unlink()

@@ -11,6 +11,7 @@ import numpy as np
 from meshforge.checks.base import NO_VISUAL_MESH, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_surface
 from meshforge.checks.legality import find_oddities
+from meshforge.checks.physics.mechanism import JointTree
 from meshforge.checks.surface_samples import SurfaceIndex, join_corners
 from meshforge.common import join_names
 from meshforge.engines import Finding
@@ -157,7 +158,19 @@ class FitCheck(MeasureCheck):
         found = measure_fit(subject.sound, cell=subject.cell)
         silent = f"bodies that show nothing, so their fit was not measured: {', '.join(found.silent)}"
         notes = [] if found.hulls and not found.silent else [silent if found.hulls else NO_VISUAL_MESH]
-        return CheckFindings((*find_oddities(subject.sound), *found.findings), {self.name: found}, tuple(notes))
+        findings = (*find_oddities(subject.sound), *found.findings, *_find_bodies_without_hulls(subject.mesh))
+        return CheckFindings(findings, {self.name: found}, tuple(notes))
+
+
+def _find_bodies_without_hulls(mesh: SymbolicMesh) -> Iterator[Finding]:
+    """Bodies that show something, where nothing collides of them nor of what they are welded to; other bodies have
+    hulls."""
+    rigid, visuals = JointTree.of(mesh).rigid_roots(), mesh.asset.visuals if mesh.asset and mesh.hulls else ()
+    solid = {rigid[hull.body] for hull in mesh.hulls}
+    shown = {one.body for one in visuals if one.body and len(one.faces)}
+    if bare := sorted(body for body in shown if rigid.get(body, body) not in solid):
+        message = f"nothing collides of what these bodies show: {join_names(bare)}"
+        yield Finding("fit-no-hulls", "warning", (), message, "Make hulls of what they show: meshforge prepare.")
 
 
 def measure_fit(mesh: SymbolicMesh, *, cell: float | None = None) -> MeshFit:
