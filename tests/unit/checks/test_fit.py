@@ -1,11 +1,12 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
 import pytest
 
-from meshforge.checks.fit import draw_fit, measure_fit
+from meshforge.checks.fit import FitCheck, draw_fit, measure_fit
 from meshforge.checks.legality import find_oddities
 from meshforge.geometry import Floats, Shape
 from meshforge.rendering import LengthUnit
@@ -50,6 +51,16 @@ def test_a_hull_is_held_against_its_own_body() -> None:
     found = measure_fit(cup(BOTTOM, *WALLS, box([1, 1, 1], [2, 2, 2]), bodies=["cup"] * 5 + ["other"]))
     assert found.silent == ("other",)
     assert [row.hull for row in found.hulls] == ["h0", "h1", "h2", "h3", "h4"]
+
+
+@pytest.mark.parametrize(("bodies", "bare"), [(["cup", "cup"], ["lid"]), (["cup", "lid"], [])])
+def test_a_body_that_shows_something_without_hulls_is_named(bodies: list[str], bare: list[str]) -> None:
+    mesh = cup(box([0, 0, 0], [1, 1, 1]), box([0, 0, 1], [1, 1, 2]), bodies=bodies)
+    assert mesh.asset
+    visuals = [replace(one, body=body) for one in mesh.asset.visuals for body in ("cup", "lid")]
+    shown = replace(mesh, asset=replace(mesh.asset, visuals=tuple(visuals)))
+    found = [one.message for one in FitCheck().examine(shown, None) if one.rule == "fit-no-hulls"]
+    assert found == [f"nothing collides of what these bodies show: {name}" for name in bare]
 
 
 def test_nothing_shown_is_told_not_an_error() -> None:
