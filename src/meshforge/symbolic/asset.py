@@ -37,6 +37,7 @@ class Geom:
     mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
     element: the collision element of the file that it is one of several pieces of, empty where it is all of it.
     fill: of the hull of a mesh that is none, see `Piece`.
+    label: of the hull that it is written of, empty for none; readers set none.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Geom:
     mentions: Mentions = ()
     element: str = ""
     fill: float | None = None
+    label: str = ""
 
 
 Rgba = tuple[float, float, float, float]
