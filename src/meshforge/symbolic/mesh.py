@@ -204,8 +204,7 @@ class SymbolicMesh:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         named = self.names_in_file
         return self.asset.with_geoms(
-            Geom(named.get(h.name, h.name), h.body, h.shape, h.parent, label=h.label or "")
-            for h in self.hulls
+            Geom(named.get(h.name, h.name), h.body, h.shape, h.parent, label=h.label or "") for h in self.hulls
         )
 
     def as_written(self, names: Mapping[str, str], back: Asset) -> Self:
