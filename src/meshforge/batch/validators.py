@@ -47,14 +47,15 @@ def ask_validator(name: str, path: Path | None, mesh: SymbolicMesh) -> CheckFind
     name: of `VALIDATORS`; path: of the file as it is now, None for a mesh that no file is of.
     """
     if not all(map(find_version, VALIDATORS[name])):
-        return _not_tried(name, "it is not installed", "Install it: pip install 'meshforge[referees]'")
+        where = ", in Python 3.11 or 3.12" if name == "simready" else ""
+        return _not_tried(name, "it is not installed", f"Install it{where}: pip install 'meshforge[referees]'")
     form = format_of(path).name if path else ""
     with TemporaryDirectory(prefix="meshforge-") as folder:
         try:
             if name == "simready":
                 if path is None or form != "usd":
-                    file = quote_path(path) if path else "FILE"
-                    return _not_tried(name, "it reads USD only", f"Write it as USD: meshforge convert {file} OUT.usda")
+                    given = quote_path(path) if path else "FILE"
+                    return _not_tried(name, "it reads USD only", f"Write it as USD: meshforge convert {given} OUT.usda")
                 return _ask_simready(path.absolute(), Path(folder))
             own = path is not None and form in _OWN_FORMATS
             file = path.absolute() if path and own else save(mesh, Path(folder) / "asset.xml").path

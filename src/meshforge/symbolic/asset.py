@@ -14,7 +14,8 @@ JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
 Mentions = tuple[tuple[str, str], ...]
 """What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
 
-Kinds: `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is what its body shows; `material`.
+Kinds: `label` is what the file says that it is; `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is
+what its body shows; `material`.
 """
 
 

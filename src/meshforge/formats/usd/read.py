@@ -108,7 +108,7 @@ def _file_of(place: Any) -> Path | None:
 
 
 def _mentions_of_prim(prim: Any) -> Mentions:
-    found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
+    found = [(kind, name) for kind, each in (("label", prim), ("class", prim.GetParent())) for name in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
     material, _ = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     if material:
