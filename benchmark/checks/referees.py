@@ -53,7 +53,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         ),
         (
             "Every sample family by the program that its walk-through learns, each asset in its own format; GLB and "
-            "glTF are given to simcheck as MJCF. For SimReady the same is written as USD, *before*: without the labels.",
+            "glTF are given to simcheck as MJCF. For SimReady the same is written as USD; *before*: without labels.",
             "*Purposes*: SimReady looks at those of invisible colliders only, so they are counted here: each collider "
             "`guide` where something else is shown, all that is shown `default` or `render`.",
         ),
