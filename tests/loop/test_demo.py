@@ -50,6 +50,12 @@ def test_every_table_comes_back_mended(shown: tuple[Path, Done]) -> None:
         assert count["leg"] == len(legs)
 
 
+def test_simcheck_finds_no_error_in_the_tables(shown: tuple[Path, Done]) -> None:
+    edited = shown[0] / "meshforge-demo" / "project" / "edited"
+    found = meshforge_here("check", edited, "--second-opinion", "simcheck", "--json", cwd=shown[0]).lines
+    assert len(found) == 14 and all(one["simcheck"]["counts"]["error"] == 0 for one in found)
+
+
 def test_the_report_shows_every_table_and_every_rule(shown: tuple[Path, Done]) -> None:
     page = html.document_fromstring((shown[0] / "meshforge-demo" / "report.html").read_bytes())
     text = "".join(map(str, page.itertext()))

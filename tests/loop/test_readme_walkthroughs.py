@@ -19,7 +19,7 @@ from meshforge.samples import family_of
 from meshforge.symbolic import SymbolicMesh
 from tests.loop.command import meshforge_here
 from tests.loop.engines import assert_engines_keep_masses, assert_engines_see_hulls
-from tests.loop.readme import parse_commands, read_blocks
+from tests.loop.readme import README, commands, parse_commands, read_blocks
 
 NOT_RUN = "script/demo"
 """The first word of the block that is not run: a script of a clone, which has tests."""
@@ -97,6 +97,13 @@ def test_the_programs_learned_are_those_that_are_printed(folder: Path) -> None:
         head, learned = (folder / family / "program.mf").read_text().split("\n\n", 1)
         assert learned == rules
         assert sorted(head.removeprefix("labels ").split(", ")) == sorted(family_of(family).vocabulary)
+
+
+@pytest.mark.parametrize("family", SHOWN)
+def test_simcheck_finds_no_error_in_what_is_written(folder: Path, family: str) -> None:
+    (words,) = commands("--second-opinion", README.parent / "docs" / "checks.md")
+    found = meshforge_here(*(word.replace("cups", family) for word in words), "--json", cwd=folder).lines
+    assert len(found) == len(assets(family, folder)) and all(one["simcheck"]["counts"]["error"] == 0 for one in found)
 
 
 def test_a_project_is_made_as_samples_proposes_it(tmp_path: Path) -> None:

@@ -12,10 +12,10 @@ from pydantic import BaseModel, ValidationError
 from meshforge.batch.check import CheckOutcome, CheckTask
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.provenance import content_digest, find_version, has_same_files, software_version, value_digest
-from meshforge.checks import CHECKS, Examination, Finding
+from meshforge.checks import CHECKS, VALIDATORS, Examination, Finding
 from meshforge.common import UsageError, plain_path, relative_name, to_text, write_atomically
 
-_ENGINES = ("mujoco", "pybullet")
+_PACKAGES = ("mujoco", "pybullet", *(name for names in VALIDATORS.values() for name in names))
 _REMEDY = "Write one: meshforge check ASSETS... --baseline FILE --update-baseline"
 
 
@@ -100,7 +100,7 @@ def _digest_settings(job: AssetJob, task: CheckTask) -> str:
     measures = task.measures
     plugins = software_version(CHECKS.plugin(name) for name in measures.names)
     labels = content_digest(job.labels) if job.labels else None
-    return value_digest([measures.names, measures.cell, labels, plugins, *map(find_version, _ENGINES)])
+    return value_digest([measures.names, measures.cell, labels, plugins, *map(find_version, _PACKAGES)])
 
 
 def _is_among(found: Finding, known: Iterable[Finding]) -> bool:

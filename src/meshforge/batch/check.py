@@ -11,6 +11,7 @@ from meshforge.batch.discovery import asset_id
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.provenance import asset_digests
+from meshforge.batch.validators import ask_validator
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, EngineLoad, Examination, FixResult, draw_examination, examine_mesh, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
@@ -179,12 +180,15 @@ def write_fixed(mesh: SymbolicMesh, base: Path, out: Path, *, overwrite: bool = 
 def examine_file(
     path: Path | None, mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None
 ) -> Examination:
-    """Return the examination of a mesh, and what the engine whose limits are asked for says of its file.
+    """Return the examination of a mesh, and what the engine whose limits are asked for, and other validators, say of
+    its file.
 
     path: of the file as it is now, None for a mesh that no file is of; before: the mesh that it was edited from.
     Raises UsageError for an unknown engine.
     """
     found = examine_mesh(mesh, wanted, before)
+    for validator in wanted.validators:
+        found = found.add_result(validator, ask_validator(validator, path, mesh))
     if (engine := wanted.engine) is None:
         return found
     ask = ENGINES_TO_ASK.get(engine)

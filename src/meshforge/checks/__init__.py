@@ -6,7 +6,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "base": "Check EngineLoad CheckFindings CheckSubject Measure",
+        "base": "VALIDATORS Check EngineLoad CheckFindings CheckSubject Measure",
         "clearance": "OF_EDIT Clearance measure_kept_space",
         "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",

@@ -1,6 +1,7 @@
 # Written by `python -m script.stubs`.
 from meshforge.checks.fix import FixResult as FixResult
 from meshforge.checks.fix import fix as fix
+from meshforge.checks.base import VALIDATORS as VALIDATORS
 from meshforge.checks.base import Check as Check
 from meshforge.checks.base import EngineLoad as EngineLoad
 from meshforge.checks.base import CheckFindings as CheckFindings

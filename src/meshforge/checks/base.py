@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from meshforge.checks.legality import check_legality
@@ -20,6 +21,10 @@ if TYPE_CHECKING:
 
 LEAST_SIZE, MOST_SIZE = 0.005, 50.0
 """Diagonals of assets [m] at which gravity and grippers mean something; others are probably in another unit."""
+VALIDATORS = MappingProxyType(
+    {"simcheck": ("simcheck",), "simready": ("simready-validate", "simready-foundation-tier-core")}
+)
+"""Other validators that give a second opinion on a file, by name, with the packages that they are."""
 NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
 
 

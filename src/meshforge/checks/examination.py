@@ -9,7 +9,7 @@ from functools import partial
 from inspect import isabstract
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from meshforge.checks.base import Check, CheckFindings, CheckSubject, EngineLoad, Measure, MeasureCheck
+from meshforge.checks.base import VALIDATORS, Check, CheckFindings, CheckSubject, EngineLoad, Measure, MeasureCheck
 from meshforge.checks.clearance import ClearanceCheck
 from meshforge.checks.fit import FitCheck
 from meshforge.checks.legality import check_legality
@@ -58,6 +58,11 @@ class CheckOptions:
         return next((name for name in self.names if name in ENGINES), None)
 
     @property
+    def validators(self) -> tuple[str, ...]:
+        """The other validators that are asked."""
+        return tuple(name for name in self.names if name in VALIDATORS)
+
+    @property
     def is_costly(self) -> bool:
         """Whether anything is measured that takes its time."""
         return any(name not in ENGINES for name in self.names)
@@ -90,8 +95,12 @@ class Examination:
 
     def add_engine_load(self, loaded: EngineLoad) -> Examination:
         """Return the same with what an engine itself said."""
-        findings = (replace(finding, check=loaded.engine) for finding in loaded.findings)
-        return replace(self, findings=(*findings, *self.findings), measures={**self.measures, ENGINE_LOAD: loaded})
+        return self.add_result(loaded.engine, CheckFindings(tuple(loaded.findings), {ENGINE_LOAD: loaded}))
+
+    def add_result(self, check: str, result: CheckFindings) -> Examination:
+        """Return the same with what a check found that is none of the mesh alone."""
+        findings = (replace(finding, check=check) for finding in result.findings)
+        return replace(self, findings=(*findings, *self.findings), measures={**self.measures, **result.measures})
 
     def add_notes(self, notes: Iterable[str]) -> Examination:
         """Return the same with more notes, but for what its trial has said in a finding."""
@@ -175,6 +184,18 @@ class EngineCheck(MeasureCheck):
         return CheckFindings(tuple(check_limits(find_engine(self.name), subject.mesh, subject.legality[0])))
 
 
+class ValidatorCheck(MeasureCheck):
+    """Another validator, which is asked where the file is known: of a mesh alone it says nothing."""
+
+    compares = False
+
+    def __init__(self, validator: str) -> None:
+        self.name = validator
+
+    def measure(self, subject: CheckSubject) -> CheckFindings:
+        return CheckFindings()
+
+
 def _adopt(plugin: Plugin, kind: Any) -> Callable[[], Check]:
     """The class of a plug-in's check. Raises PluginError where it does not fit."""
     if not (isinstance(kind, type) and issubclass(kind, Check)):
@@ -188,7 +209,8 @@ CHECKS: Registry[Callable[[], Check]] = Registry(
     "checks",
     {kind.name: kind for kind in MEASURES}
     | {"speed": SpeedCheck}
-    | {name: partial(EngineCheck, name) for name in ENGINES},
+    | {name: partial(EngineCheck, name) for name in ENGINES}
+    | {name: partial(ValidatorCheck, name) for name in VALIDATORS},
     _adopt,
 )
 

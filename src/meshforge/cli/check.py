@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -15,6 +15,7 @@ from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 
+Validator = Literal["simcheck", "simready"]
 _FEW = 5  # assets whose results one sees at a glance
 
 
@@ -38,6 +39,13 @@ class CheckArguments:
         bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
     ] = False
     physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False
+    second_opinion: Annotated[
+        Validator | None,
+        typer.Option(
+            "--second-opinion",
+            help="Also ask another validator: simcheck, or for USD simready. Needs pip install 'meshforge[referees]'.",
+        ),
+    ] = None
     check: Annotated[
         list[str] | None,
         typer.Option("--check", help="A check of a plug-in, or one of those above by its name. May be repeated."),
@@ -90,7 +98,8 @@ def check(given: CheckArguments) -> None:
     makes no sense. meshforge explain CODE says what a finding means.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
-    measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)
+    asked = filter(None, [given.engine, given.second_opinion])
+    measures = CheckOptions.of([*asked, *chosen, *(given.check or ())], given.cell)
     _refuse_stray_options(given, measures)
     known = batch.Baseline.read(given.baseline, new=given.update_baseline) if given.baseline else None
     task = batch.CheckTask(

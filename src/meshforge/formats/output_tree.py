@@ -118,7 +118,7 @@ def _to_asset(what: SymbolicMesh | Asset) -> Asset:
     if isinstance(what, Asset) or what.asset:
         return what if isinstance(what, Asset) else what.to_asset()
     bodies, named = dict.fromkeys(hull.body for hull in what.hulls), what.names_in_file
-    geoms = tuple(Geom(named.get(hull.name, hull.name), hull.body, hull.shape) for hull in what.hulls)
+    geoms = tuple(Geom(named.get(h.name, h.name), h.body, h.shape, label=h.label or "") for h in what.hulls)
     return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
 
 

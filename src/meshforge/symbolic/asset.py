@@ -14,7 +14,8 @@ JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
 Mentions = tuple[tuple[str, str], ...]
 """What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
 
-Kinds: `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is what its body shows; `material`.
+Kinds: `label` is what the file says that it is; `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is
+what its body shows; `material`.
 """
 
 
@@ -37,6 +38,7 @@ class Geom:
     mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
     element: the collision element of the file that it is one of several pieces of, empty where it is all of it.
     fill: of the hull of a mesh that is none, see `Piece`.
+    label: of the hull that it is written of, empty for none; readers set none.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Geom:
     mentions: Mentions = ()
     element: str = ""
     fill: float | None = None
+    label: str = ""
 
 
 Rgba = tuple[float, float, float, float]

@@ -203,7 +203,9 @@ class SymbolicMesh:
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         named = self.names_in_file
-        return self.asset.with_geoms(Geom(named.get(h.name, h.name), h.body, h.shape, h.parent) for h in self.hulls)
+        return self.asset.with_geoms(
+            Geom(named.get(h.name, h.name), h.body, h.shape, h.parent, label=h.label or "") for h in self.hulls
+        )
 
     def as_written(self, names: Mapping[str, str], back: Asset) -> Self:
         """Return the mesh with the names and shapes of its hulls in the file that was written of it, for the labels

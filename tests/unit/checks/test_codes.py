@@ -9,6 +9,7 @@ from typing import get_args
 
 import pytest
 
+from meshforge.checks import VALIDATORS
 from meshforge.checks.goals.base import GoalOutcome
 from meshforge.checks.legality import _REMEDIES as FAULTS
 from meshforge.checks.physics.mechanism import _REMEDIES as MASSES
@@ -44,7 +45,7 @@ def rules_of(module: str, expression: str) -> set[str]:
         return {constant[1]}
     suffix = re.fullmatch(r"f'\{[\w.]+\}(-[a-z-]+)'", expression)
     assert suffix, f"{module}: what rules is {expression}?"
-    found = {f"{engine}{suffix[1]}" for engine in ENGINES} & RULES
+    found = {f"{engine}{suffix[1]}" for engine in (*ENGINES, *VALIDATORS)} & RULES
     assert found, f"{module}: no code for {expression}"
     return found
 

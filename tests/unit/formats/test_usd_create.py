@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pxr import Usd, UsdSemantics
 
-from meshforge.formats import read, save
+from meshforge.formats import load, read, save
 from meshforge.formats.usd.stage import BODY
 from meshforge.geometry import Box, Capsule, Cylinder, Sphere
-from meshforge.symbolic import FeatureKind
+from meshforge.labels.names.label_by_names import match_names, names_of_mesh
+from meshforge.samples import family_of, write_family
+from meshforge.symbolic import FeatureKind, Label, SymbolicMesh
 from tests.conversion_samples import SAMPLES
-from tests.usd_stages import complaints, physics_shapes, stage, written
+from tests.usd_stages import CUP, complaints, physics_shapes, stage, written
 
 KINDS = (".usda", ".usdc", ".usd", ".usdz")
 
@@ -94,3 +98,31 @@ def test_a_stage_with_y_up_stands_upright_in_other_formats(tmp_path: Path) -> No
     (geom,) = read(saved.path).geoms
     assert isinstance(geom.shape, Cylinder) and np.allclose(np.abs(geom.shape.pose.rotation[:, 2]), [0, 0, 1])
     assert "stand upright" in saved.notes[0]
+
+
+def test_labels_of_hulls_come_back_as_mentions_and_what_is_shown_has_those_of_its_body(tmp_path: Path) -> None:
+    write_family(family_of("cups"), tmp_path)
+    mesh = load(tmp_path / "mug" / "model.urdf")
+    out = save(mesh, tmp_path / "mug.usda")
+    found = {one.hull: match_names(one, ("handle", "wall", "base")) for one in names_of_mesh(load(out.path))}
+    assert {name: one and one.label for name, one in found.items()} == {
+        out.names.get(hull.name, hull.name): hull.label for hull in mesh.hulls
+    }
+    stage = Usd.Stage.Open(str(out.path))
+    (shown,) = [prim for prim in stage.Traverse() if prim.GetName() == "visual"]
+    assert [*UsdSemantics.LabelsAPI(shown, "class").GetLabelsAttr().Get()] == ["base", "wall", "handle"]
+    bare = SymbolicMesh.of(read(tmp_path / "mug" / "model.urdf"))
+    assert b"emantics" not in save(bare, tmp_path / "bare.usda").path.read_bytes()
+
+
+def test_an_edit_in_place_labels_what_it_makes_and_nothing_else(tmp_path: Path) -> None:
+    mesh = SymbolicMesh.of(read(written(tmp_path, CUP)))
+    assert mesh.asset
+    side = mesh.hulls[0]
+    made = replace(side, name=f"{side.name}~1", parent=side.name).with_label(Label("wall"))
+    out = save(
+        mesh.with_hulls([made, *(hull.with_label(Label("grip")) for hull in mesh.hulls[1:])]),
+        tmp_path / "out" / "a.usda",
+    )
+    labels = [geom.mentions[:1] for geom in read(out.path).geoms]
+    assert labels.count((("label", "wall"),)) == 1 and (("label", "grip"),) not in labels

@@ -156,7 +156,7 @@ def test_preview_surfaces_tell_the_colour(tmp_path: Path) -> None:
 def test_semantic_labels_and_materials_are_mentioned(tmp_path: Path) -> None:
     labels = 'token[] semantics:labels:class = ["handle"]'
     asset = of(tmp_path, mesh("part_7", api=f'{COLLIDES}, "SemanticsLabelsAPI:class"', more=labels))
-    assert ("class", "handle") in asset.geoms[0].mentions
+    assert ("label", "handle") in asset.geoms[0].mentions
 
 
 def test_the_selected_variant_is_read(tmp_path: Path) -> None:

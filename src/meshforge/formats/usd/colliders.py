@@ -14,6 +14,8 @@ COLLISION, MESH_COLLISION = "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"
 RIGID_BODY, TRIGGER = "PhysicsRigidBodyAPI", "PhysxTriggerAPI"
 DRAWN = "meshforgeDrawn"
 """The custom data of a collider that a conversion shows, since the asset shows nothing."""
+LABELS_SCHEMA, LABELS = "SemanticsLabelsAPI:", "semantics:labels:"
+"""How USD says what a prim is, in a taxonomy: the schema, and the attribute, before its name."""
 HULL_NAME = "meshforgeName"
 """The custom data of a collider: the name of its hull, where the prim has another one."""
 

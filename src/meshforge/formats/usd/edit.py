@@ -167,7 +167,8 @@ def create_usd(asset: Asset, name: str) -> Output:
     """Return the files of an asset that came from another format.
 
     Bodies become rigid bodies side by side, hulls native shapes or convex meshes below them, in metres with Z up; what
-    is part of the world collides without one. Hulls are hidden, unless the asset shows nothing else.
+    is part of the world collides without one. Hulls are hidden, unless the asset shows nothing else. They have their
+    labels, and what is shown those of all hulls of its body.
     """
     with stage.usd(name):
         return _Creator(asset, PurePosixPath(name)).build_output()
@@ -217,6 +218,7 @@ class _Creator:
         holder = self.bodies.get(geom.body, self.root)
         spec, approximation = prims.add_shape(holder, self._free_name(holder, geom), geom.shape, self._space(geom.body))
         prims.mark_collider(spec, approximation, drawn=self.drawn)
+        prims.set_labels(spec, [geom.label])
         own = self._keep_name(spec, geom)
         read = f"{holder.name if geom.body in self.bodies else stage.BODY}/{own}" if self.bodies else own
         if read != geom.name:
@@ -253,6 +255,7 @@ class _Creator:
             holder = self.bodies.get(body, self.root)
             points, name = np.asarray(surface.vertices), prims.free_prim_name(holder, "visual")
             spec = prims.add_mesh(holder, name, points, surface.faces, self._space(body))
+            prims.set_labels(spec, (geom.label for geom in self.asset.geoms if body in (geom.body, None)))
             if surface.rgba is not None:
                 color = pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(surface.rgba))])
                 prims.set_value(spec, "primvars:displayColor", "Color3fArray", color)

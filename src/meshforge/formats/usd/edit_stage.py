@@ -46,6 +46,7 @@ class LayerEdit:
     def add_geom(self, holder: Any, geom: Geom, space: prims.PrimSpace) -> tuple[Any, str | None]:
         """Add the prim of a hull; return it, and the approximation by which it collides where it is a mesh."""
         spec, approximation = prims.add_shape(holder, self.free_name(holder, geom.name), geom.shape, space)
+        prims.set_labels(spec, [geom.label])
         self._hulled += [geom.shape.kind] if approximation and geom.shape.is_primitive else []
         return spec, approximation
 

@@ -1,6 +1,7 @@
 """Prims as specs of a layer: shapes, meshes and masses, in the space that they are put in."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -10,7 +11,7 @@ from meshforge import geometry
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
+from meshforge.formats.usd.colliders import COLLISION, DRAWN, LABELS, LABELS_SCHEMA, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import UsdStage, rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
 from meshforge.symbolic import Inertial
@@ -157,6 +158,13 @@ def mark_collider(spec: Any, approximation: str | None, *, drawn: bool = False) 
         spec.SetInfoDictionaryValue("customData", DRAWN, True)
     else:
         set_value(spec, "purpose", "Token", "guide", uniform=True)
+
+
+def set_labels(spec: Any, labels: Iterable[str]) -> None:
+    """Say what a prim is, by the taxonomy `class`; empty labels are none."""
+    if own := [*dict.fromkeys(filter(None, labels))]:
+        apply_schemas(spec, [f"{LABELS_SCHEMA}class"])
+        set_value(spec, f"{LABELS}class", "TokenArray", own)
 
 
 def add_collision(spec: Any, approximation: str | None) -> None:

@@ -19,7 +19,6 @@ from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import LazySurfaces, screen_color
 from meshforge.symbolic import Asset, FileNote, Mentions, Rgba, Surface
 
-_LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
 
 
@@ -109,7 +108,7 @@ def _file_of(place: Any) -> Path | None:
 
 
 def _mentions_of_prim(prim: Any) -> Mentions:
-    found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
+    found = [(kind, name) for kind, each in (("label", prim), ("class", prim.GetParent())) for name in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
     material, _ = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     if material:
@@ -120,8 +119,8 @@ def _mentions_of_prim(prim: Any) -> Mentions:
 def _labels_of(prim: Any) -> Iterator[str]:
     """The labels of a prim, by USD's own schema and by that of Isaac's earlier versions."""
     for schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas():
-        if schema.startswith(_LABELS):
-            labels = prim.GetAttribute(f"semantics:labels:{schema.removeprefix(_LABELS)}").Get()
+        if schema.startswith(colliders.LABELS_SCHEMA):
+            labels = prim.GetAttribute(schema.replace(colliders.LABELS_SCHEMA, colliders.LABELS, 1)).Get()
             yield from map(str, labels or ())
         elif schema.startswith(_ISAAC):
             data = prim.GetAttribute(f"semantic:{schema.removeprefix(_ISAAC)}:params:semanticData").Get()

@@ -22,7 +22,7 @@ NAMELESS = "body"
 _PATTERN = 0.9
 _SURE = 0.5  # a name that is less sure gives way to the next
 _LESS = {"body": 0.1, "class": 0.1, "shown": 0.1, "material": 0.2}  # what a name says of several things at once
-_HULL = "hull"
+_HULL, _LABEL = "hull", "label"
 _OWN = ("visual", "mesh", "group", "node")
 _DIGITS = 2
 
@@ -71,7 +71,8 @@ class HullNames:
         return self.hull.removeprefix(f"{self.body}/")
 
     def own_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the kinds and the names that are its own, not its body's."""
+        """Yield the kinds and the names that are its own, not its body's; what its file labels it is first."""
+        yield from ((kind, name) for kind, name in self.mentions if kind == _LABEL)
         yield _HULL, self.own
         yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
 
@@ -80,7 +81,7 @@ class HullNames:
         yield from self.own_names()
         if self.body != NAMELESS:
             yield "body", self.body
-        yield from ((kind, name) for kind, name in self.mentions if kind not in _OWN)
+        yield from ((kind, name) for kind, name in self.mentions if kind not in (*_OWN, _LABEL))
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +121,7 @@ def _match_words(names: HullNames, vocabulary: Sequence[str]) -> NameMatch | Non
     sure = [one for one in found if one.confidence >= _SURE]
     if not sure:
         return max(found, key=lambda one: one.confidence, default=None)
-    own = {one.label for one in sure if one.kind in (_HULL, *_OWN)}
+    own = {one.label for one in sure if one.kind in (_HULL, _LABEL, *_OWN)}
     return replace(sure[0], confidence=UNSURE) if len(own) > 1 else sure[0]
 
 
