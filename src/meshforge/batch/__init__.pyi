@@ -87,9 +87,7 @@ from meshforge.batch.report.build_files import make_edit_case as make_edit_case
 from meshforge.batch.report.build_files import write_build_files as write_build_files
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
-from meshforge.batch.report.contents import ReportStatus as ReportStatus
 from meshforge.batch.report.contents import RunFigures as RunFigures
-from meshforge.batch.report.contents import read_again as read_again
 from meshforge.batch.report.contents import read_job as read_job
 from meshforge.batch.report.outcomes import choose_outcomes as choose_outcomes
 from meshforge.batch.report.outcomes import compare_outcomes as compare_outcomes
