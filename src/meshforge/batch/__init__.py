@@ -18,7 +18,7 @@ __getattr__, __all__ = export_lazily(
         "goals": "GOAL_EXECUTION AssetGoals GoalTask recall_goals try_goals",
         "jobs": (
             "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
-            "describe_jobs read_template template_folders"
+            "describe_jobs template_folders"
         ),
         "lock": "hold_lock",
         "outcome": (

@@ -35,7 +35,6 @@ from meshforge.batch.jobs import inputs_of as inputs_of
 from meshforge.batch.jobs import load_templates as load_templates
 from meshforge.batch.jobs import make_jobs as make_jobs
 from meshforge.batch.jobs import describe_jobs as describe_jobs
-from meshforge.batch.jobs import read_template as read_template
 from meshforge.batch.jobs import template_folders as template_folders
 from meshforge.batch.lock import hold_lock as hold_lock
 from meshforge.batch.outcome import MOST_SHOWN as MOST_SHOWN
