@@ -11,7 +11,6 @@ from threading import Lock
 from meshforge.batch import find_assets_in
 from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reads, join_names, replace_atomically
 from meshforge.formats import read
-from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
 
 MB = 2**20
@@ -19,6 +18,10 @@ MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 500 * MB, 2000 * MB, 5000
 _LONGEST_PATH = 240
 REMEDY = "Send each asset together with all files that it names."
 """For assets that cannot be read."""
+
+
+class TooLargeError(UsageError):
+    """An upload is larger than the limit."""
 
 
 class Uploads:

@@ -10,8 +10,7 @@ import pytest
 from meshforge.common import ProjectError, UsageError
 from meshforge.samples import TABLES
 from meshforge.studio import transfers
-from meshforge.studio.errors import TooLargeError
-from meshforge.studio.transfers import Uploads, confine_path, find_assets, save_stream
+from meshforge.studio.transfers import TooLargeError, Uploads, confine_path, find_assets, save_stream
 from meshforge.studio.workers import Workers
 
 Result = TypeVar("Result")

@@ -14,10 +14,10 @@ from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.rendering import LengthUnit
+from meshforge.store import NotHereError
 from meshforge.studio.api.connection import BodyText, CurrentSession, SenderId, packet_response
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets
-from meshforge.studio.errors import NotHereError
 from meshforge.studio.jobs import start_job
 from meshforge.studio.queries import assets, goals, packets, programs
 from meshforge.studio.similar_hulls import choose_assets
