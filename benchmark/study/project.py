@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmark.assets.storage import Sample
 from benchmark.study.desk import Bench, Desk, Start
+from meshforge.common import write_atomically
 from meshforge.formats import read
 from meshforge.geometry import Shape
 from meshforge.language import Orient
@@ -108,7 +109,7 @@ def write_project(desk: Desk, folder: Path, *, unnamed: bool = False) -> Project
     project = create_project(folder, one.name, desk.meshes, words, orient).with_cache()
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
-        project.add_template(name, _format_obj(template.shapes).encode())
+        write_atomically(project.layout.own_templates / name, _format_obj(template.shapes).encode())
     for name, mesh in desk.meshes.items():
         if mesh.labels:
             write_labels(project.layout.labels(name), mesh, project.vocabulary)

@@ -65,20 +65,5 @@ def test_uploads_that_cannot_be_read_are_thrown_away_with_a_message(studio: Stud
 
 
 def test_uploads_that_are_too_large_are_refused(studio: Studio) -> None:
-    answer = studio.put("/api/templates", bytes(20 * 2**20 + 1), name="big.obj")
-    assert answer.status_code == 413
-    assert "20 MB" in answer.json()["message"]
     answer = studio.client.post("/api/edit", content=bytes(16 * 2**20 + 1))
     assert answer.status_code == 413
-
-
-def test_a_template_is_taken_if_it_can_be_one(studio: Studio) -> None:
-    before = studio.settled()["project"]["templates"]
-    box = next((TABLES / "templates").iterdir()).read_bytes()
-    assert ok(studio.put("/api/templates", box, name="tray.obj"))["names"] == ["tray.obj"]
-    studio.until(lambda hello: "tray.obj" in hello["project"]["templates"])
-    for name, content in (("bad.obj", b"v 0 0 0"), ("../x.obj", box), ("x.exe", box)):
-        answer = studio.put("/api/templates", content, name=name)
-        assert answer.status_code == 400 and answer.json()["remedy"], name
-    ok(studio.post("/api/undo"))
-    studio.until(lambda hello: hello["project"]["templates"] == before)

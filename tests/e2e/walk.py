@@ -86,15 +86,11 @@ def legs(person: Hand) -> None:
     show_alike(person, "convex_10", "m", "e", steps=3)
 
 
-def drawers(person: Hand, upload: Path | None = None) -> None:
-    """Rule 4: each drawer becomes a tray; upload: the file of the tray where the project has none yet."""
+def drawers(person: Hand) -> None:
+    """Rule 4: each drawer becomes a tray."""
     person.hull("convex_22")
     person.press("Shift+L", "r")
-    if upload:
-        person.page.get_by_label("Template files").set_input_files(upload)
-        person.button("tray.obj").wait_for()
-    else:
-        person.click("tray.obj")
+    person.click("tray.obj")
     person.press("e", "Enter")
     stepped(person, 4)
 

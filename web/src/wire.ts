@@ -1396,8 +1396,8 @@ export interface SimilarView {
   passed_over: number;
 }
 /**
- * An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other
- * assets of it cannot be read, and were left out.
+ * An upload is stored. names: the paths of asset files; problems: why other assets of it cannot be read, and were
+ * left out.
  */
 export interface UploadReceipt {
   names: string[];

@@ -18,7 +18,7 @@ __getattr__, __all__ = export_lazily(
         "goals": "GOAL_EXECUTION AssetGoals GoalTask recall_goals try_goals",
         "jobs": (
             "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
-            "describe_jobs read_template template_folders"
+            "describe_jobs template_folders"
         ),
         "lock": "hold_lock",
         "outcome": (
@@ -36,7 +36,7 @@ __getattr__, __all__ = export_lazily(
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
         "report.build_files": "CheckCase list_check_cases list_goal_cases make_edit_case write_build_files",
-        "report.contents": "MeshReader ReportAsset ReportStatus RunFigures read_again read_job",
+        "report.contents": "MeshReader ReportAsset RunFigures read_job",
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "ReportHeader ReportOptions write_report",
         "workers": (

@@ -35,7 +35,6 @@ from meshforge.batch.jobs import inputs_of as inputs_of
 from meshforge.batch.jobs import load_templates as load_templates
 from meshforge.batch.jobs import make_jobs as make_jobs
 from meshforge.batch.jobs import describe_jobs as describe_jobs
-from meshforge.batch.jobs import read_template as read_template
 from meshforge.batch.jobs import template_folders as template_folders
 from meshforge.batch.lock import hold_lock as hold_lock
 from meshforge.batch.outcome import MOST_SHOWN as MOST_SHOWN
@@ -87,9 +86,7 @@ from meshforge.batch.report.build_files import make_edit_case as make_edit_case
 from meshforge.batch.report.build_files import write_build_files as write_build_files
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset
-from meshforge.batch.report.contents import ReportStatus as ReportStatus
 from meshforge.batch.report.contents import RunFigures as RunFigures
-from meshforge.batch.report.contents import read_again as read_again
 from meshforge.batch.report.contents import read_job as read_job
 from meshforge.batch.report.outcomes import choose_outcomes as choose_outcomes
 from meshforge.batch.report.outcomes import compare_outcomes as compare_outcomes

@@ -14,8 +14,7 @@ from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions, Goal
 from meshforge.cli import options
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork, work_of_program, work_of_project
-from meshforge.cli.console import NoteLog, progress
-from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
+from meshforge.cli.console import NOTHING_WRITTEN, NoteLog, describe_failure, progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, join_names, pluralize
 
@@ -62,7 +61,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     for failed in work.new.failed:
         summary.add(failed)
         errors[failed.asset] = failed.error
-        done.append(failed) if given.json else typer.echo(describe_failure(failed))
+        done.append(failed) if given.json else typer.echo(describe_failure(failed.asset, failed.error))
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -155,7 +154,7 @@ def _print_lines(done: Iterable[batch.AssetOutcome], alarms: Alarms, *more: Mapp
 
 def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:
     if isinstance(outcome, batch.Failed):
-        return describe_failure(outcome)
+        return describe_failure(outcome.asset, outcome.error)
     rules = (f"rule {effect.rule}: {effect.note}" for effect in outcome.rules if effect.note)
     hulls = f"{outcome.before} -> {pluralize(outcome.after, 'hull')}"
     line = f"{outcome.status:10} {escape_name(outcome.asset)}: {hulls}"
@@ -169,10 +168,13 @@ def _write_report(
         from meshforge.project import build_run_report  # lazy: 170 modules that a program file does not need
 
         made = build_run_report(work.project, work.program, work.out, summary, seconds=seconds, measures=measures)
-        write_report_page(path, made.header, made.assets, made.program)
-        return
-    outcomes = batch.choose_outcomes(work.out, summary)
-    readers, alarms = work.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
-    assets = list(batch.compare_outcomes(outcomes, work.program, readers, (), measures, alarms))
-    header = batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary))
-    write_report_page(path, header, assets, work.program)
+        header, assets, program = made.header, made.assets, made.program
+    else:
+        outcomes = batch.choose_outcomes(work.out, summary)
+        readers, alarms = work.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
+        assets = list(batch.compare_outcomes(outcomes, work.program, readers, (), measures, alarms))
+        header = batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary))
+        program = work.program
+    with progress(len(assets), "drawing") as advance:
+        batch.write_report(path, header, assets, program=program, options=batch.ReportOptions(progress=advance))
+    remark(f"report: {escape_name(str(path))}")

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from time import perf_counter
 from typing import Annotated, Literal
 
 import typer
@@ -11,7 +10,6 @@ from meshforge import batch
 from meshforge.checks import MEASURES, CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import NoteLog, progress
-from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 
@@ -79,7 +77,6 @@ class CheckArguments:
     max_vertices: options.MaxVertices = None
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where there are warnings.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
-    report: options.ReportPath = None
     sarif: options.SarifPath = None
     junit: options.JunitPath = None
     baseline: Annotated[Path | None, typer.Option("--baseline", help="What is known: only new errors fail.")] = None
@@ -117,7 +114,6 @@ def check(given: CheckArguments) -> None:
     is_bounded = given.execution.timeout is not None or given.execution.memory is not None
     in_process = len(fresh) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
-    page, started = CheckReport() if given.report else None, perf_counter()
     done, failed, accepted = [], 0, 0
     log = NoteLog(len(jobs) > 2)
     with progress(len(fresh), "checking") as advance:
@@ -129,8 +125,6 @@ def check(given: CheckArguments) -> None:
             accepted += len(outcome.accepted)
             if known or given.sarif or given.junit:
                 done.append((job, outcome))
-            if page:
-                page.add(job, outcome)
             if given.json:
                 print_json(outcome.to_json(), compact=True)
             else:
@@ -141,9 +135,6 @@ def check(given: CheckArguments) -> None:
         before = f", {pluralize(accepted, 'finding')} known, {len(unchanged):,} not checked again" if known else ""
         what = f"{'new ' * bool(known)}errors{' or warnings' * given.strict}"
         typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with {what}{before}")
-    if given.report and page:
-        name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
-        page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)
     if given.sarif or given.junit:
         cases = [
             case
@@ -192,7 +183,22 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
 def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:
     measured = outcome.examination.descriptions if outcome.examination else ()
     return (
-        *describe_changes(outcome),
+        *_describe_changes(outcome),
         *measured,
         *(f"wrote {escape_name(str(picture))}" for picture in outcome.pictures),
+    )
+
+
+def _describe_changes(outcome: batch.CheckOutcome) -> tuple[str, ...]:
+    """What was fixed, what was left, and where it was written, a sentence each."""
+    if outcome.is_unchanged:
+        then = "" if outcome.findings else "; nothing was found then"
+        return (f"unchanged since the baseline, not checked again{then}",)
+    if (fixed := outcome.fix_result) is None:
+        return ()
+    return (
+        *(f"fixed: {change.description}" for change in fixed.changes),
+        *(f"fixed: {escape_name(element)}: each of its hulls is in a file of its own" for element in fixed.parted),
+        *fixed.left,
+        f"wrote {escape_name(str(outcome.output))}",
     )

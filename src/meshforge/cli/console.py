@@ -175,6 +175,14 @@ def progress(total: int | None, what: str, pieces: Callable[[], tuple[int, int]]
         yield shown
 
 
+NOTHING_WRITTEN = " (nothing was written)"
+
+
+def describe_failure(asset: str, why: str) -> str:
+    """Return that an asset failed, and why."""
+    return f"failed     {escape_name(asset)}\n    " + why.replace("\n", "\n    ")
+
+
 _QUOTED = re.compile("'([^']*)'")
 
 

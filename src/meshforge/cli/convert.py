@@ -9,7 +9,7 @@ import typer
 
 from meshforge import formats
 from meshforge.cli import options
-from meshforge.cli.console import NoteLog, fold_notes, progress
+from meshforge.cli.console import NOTHING_WRITTEN, NoteLog, describe_failure, fold_notes, progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS_BY_SUFFIX, Loss, SaveResult
@@ -84,7 +84,6 @@ def convert(given: ConvertArguments) -> None:
 def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, suffix: str) -> None:
     """Write all assets below a folder in another format, as a run without a program; leave with 1 where some failed."""
     from meshforge import batch  # lazy: 250 modules that only --to needs; also below
-    from meshforge.cli.report import NOTHING_WRITTEN, describe_failure  # lazy: as batch
     from meshforge.language import Program  # lazy: as batch
 
     jobs, summary = batch.make_jobs(batch.expand(sources), given.labels), batch.RunSummary()
@@ -108,7 +107,7 @@ def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, su
             if given.json:
                 print_json(batch.to_json_line(outcome), compact=True)
             elif isinstance(outcome, batch.Failed):
-                typer.echo(describe_failure(outcome))
+                typer.echo(describe_failure(outcome.asset, outcome.error))
             else:
                 word = "skipped" if isinstance(outcome, batch.Skipped) else "written"
                 line = f"{word:10} {escape_name(outcome.out)}: {pluralize(outcome.after, 'hull')}"

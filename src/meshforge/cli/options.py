@@ -174,7 +174,7 @@ By = Annotated[
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials.",
+        "its groups and nodes.",
     ),
 ]
 

@@ -50,7 +50,7 @@ def place_pieces(
 ) -> list[CollisionPiece]:
     """Return the pieces of a mesh file under x -> linear @ x + offset, reflections included.
 
-    surfaces: those that the pieces are of, where their names and materials are to be kept as parts.
+    surfaces: those that the pieces are of, where their names are to be kept as parts.
     """
     known = parts_of_surfaces(surfaces) if surfaces and any(piece.shape is None for piece in pieces) else None
     parts: list[CollisionPiece] = []

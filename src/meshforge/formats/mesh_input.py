@@ -175,7 +175,7 @@ def _number(bases: Sequence[str]) -> list[str]:
 
 def _describe_parts(known: geometry.SurfaceParts | None, by: DecomposeBy) -> list[str]:
     if by == "parts":
-        return ["no parts are known, by groups, nodes or materials: decomposed as a whole"]
+        return ["no parts are known, by groups or nodes: decomposed as a whole"]
     if known and known.is_divided:
         names = list(dict.fromkeys(known.names[k] for k in known.numbers))
         return [f"a hull may hold several of its parts ({join_names(names, 3)}); --by parts keeps them apart"]

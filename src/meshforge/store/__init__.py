@@ -11,7 +11,7 @@ __getattr__, __all__ = export_lazily(
             "SnoozeEvent Verdict VerdictEvent WithdrawalEvent format_lines"
         ),
         "feedback": "Feedback load_events",
-        "history": "FileConflict ConflictError History",
+        "history": "FileConflict ConflictError NotHereError History",
         "history_entries": "HistoryEntry",
         "layout": (
             "Effect JsonFile Layout PreparationPlanFile ProjectFile identify_file json_text list_files read_json "

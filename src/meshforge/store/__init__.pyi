@@ -17,6 +17,7 @@ from meshforge.store.feedback import Feedback as Feedback
 from meshforge.store.feedback import load_events as load_events
 from meshforge.store.history import FileConflict as FileConflict
 from meshforge.store.history import ConflictError as ConflictError
+from meshforge.store.history import NotHereError as NotHereError
 from meshforge.store.history import History as History
 from meshforge.store.history_entries import HistoryEntry as HistoryEntry
 from meshforge.store.layout import Effect as Effect

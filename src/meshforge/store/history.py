@@ -30,6 +30,10 @@ _RECORDED: ContextVar[frozenset[Path]] = ContextVar("recorded", default=frozense
 """The folders of projects of which a change is being recorded here: what is changed meanwhile is part of it."""
 
 
+class NotHereError(ProjectError):
+    """There is no such thing in the project."""
+
+
 class ConflictError(ProjectError):
     """Something else changed first: another page, a command in a terminal or an editor. Nothing was written."""
 

@@ -4,41 +4,14 @@ demonstrations/ID.json, and corrections/ID.json, replayed after the program.
 
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Annotated
 
 from pydantic import AliasChoices, ConfigDict, Field
 
 from meshforge import language, synthesis
-from meshforge.batch import ManualEdit, action_text, read_template
-from meshforge.common import MeshForgeError, ProjectError, join_names, write_atomically
-from meshforge.formats import MESH_SUFFIXES
+from meshforge.batch import ManualEdit, action_text
+from meshforge.common import MeshForgeError, ProjectError, write_atomically
 from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, write_json
-
-
-def check_template(layout: Layout, name: str, data: bytes) -> None:
-    """Raise ProjectError where the contents of a file cannot be a template: no plain name, or no convex hulls."""
-    beside, _ = layout.templates
-    _check_name(name)
-    if (beside / name).exists():
-        remedy = "Give the template another name."
-        raise ProjectError("a file of that name beside the program would be taken instead", where=name, remedy=remedy)
-    with TemporaryDirectory() as draft:
-        path = Path(draft) / name
-        path.write_bytes(data)
-        try:
-            read_template(path, name)
-        except MeshForgeError as error:
-            remedy = "A template is a mesh file whose parts are convex; `meshforge decompose FILE -o OUT` makes one."
-            where = (error.where or name).replace(str(path), name)
-            raise ProjectError(error.problem, where=where, remedy=remedy) from error
-
-
-def _check_name(name: str) -> None:
-    plain = name.isprintable() and not set(name) & set('/\\:*?"<>|') and not name.startswith(".")
-    if not plain or Path(name).suffix.lower() not in MESH_SUFFIXES or len(name.encode()) > 200:
-        remedy = f"It ends in {join_names(MESH_SUFFIXES)} and has no folders in it."
-        raise ProjectError(f"{name!r} is no name for a template", remedy=remedy)
 
 
 class ProgramRecord(JsonFile):

@@ -305,12 +305,6 @@ class Store:
         paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
         return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
-    def add_template(self, name: str, data: bytes) -> None:
-        """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
-        program_files.check_template(self.layout, name, data)
-        with self.lock():
-            write_atomically(self.layout.own_templates / name, data)
-
     # What a person said
 
     def feedback(self) -> Feedback:

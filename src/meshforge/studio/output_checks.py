@@ -16,7 +16,7 @@ from meshforge.common import MeshForgeError, ProjectError, describe_error, write
 from meshforge.common.processes import memory_share
 from meshforge.project import Project
 from meshforge.rendering import LengthUnit, encode_png
-from meshforge.studio.errors import NotHereError
+from meshforge.store import NotHereError
 from meshforge.studio.output_measures import MeasureTask, check_key, measure, read_pair
 from meshforge.studio.thumbnails import remove_oldest
 from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault

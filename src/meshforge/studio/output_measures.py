@@ -12,7 +12,7 @@ from meshforge.common import ProjectError
 from meshforge.engines import ENGINES
 from meshforge.formats import load
 from meshforge.project import Project, output_digest
-from meshforge.studio.errors import NotHereError
+from meshforge.store import NotHereError
 from meshforge.studio.wire.asset import CheckFinding, CheckPart, CheckResult, Figure, FigureUnit
 from meshforge.symbolic import SymbolicMesh
 

@@ -15,8 +15,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model import FamilyTable, MeshDescriber, find_similar
 from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS, Bools
 from meshforge.project import Project
-from meshforge.store import AssetFiles
-from meshforge.studio.errors import NotHereError
+from meshforge.store import AssetFiles, NotHereError
 from meshforge.studio.wire.requests import HullsOfAsset, SimilarRequest, SimilarView
 from meshforge.studio.workers import Workers, wait_for
 from meshforge.symbolic import HUMAN_SOURCES, Label

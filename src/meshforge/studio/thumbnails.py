@@ -11,8 +11,7 @@ from meshforge.common import MeshForgeError, write_atomically
 from meshforge.formats import load
 from meshforge.geometry import digest
 from meshforge.project import Project, output_digest
-from meshforge.store import geometry_digest
-from meshforge.studio.errors import NotHereError
+from meshforge.store import NotHereError, geometry_digest
 from meshforge.studio.queries.assets import compute_upright, draw_thumbnail, output_picture_digest, picture_digest
 from meshforge.studio.workers import Workers, future_of, project_of_one, wait_for
 

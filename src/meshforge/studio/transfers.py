@@ -7,19 +7,21 @@ from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from threading import Lock
-from uuid import uuid4
 
 from meshforge.batch import find_assets_in
 from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reads, join_names, replace_atomically
 from meshforge.formats import read
-from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
 
 MB = 2**20
-MOST_TEMPLATE, MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 20 * MB, 500 * MB, 2000 * MB, 5000
+MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 500 * MB, 2000 * MB, 5000
 _LONGEST_PATH = 240
 REMEDY = "Send each asset together with all files that it names."
 """For assets that cannot be read."""
+
+
+class TooLargeError(UsageError):
+    """An upload is larger than the limit."""
 
 
 class Uploads:
@@ -45,12 +47,6 @@ class Uploads:
                 raise
             most, remedy = f"{MOST_ALL_FILES // MB} MB", "Add them in several portions."
             raise TooLargeError(f"these files are larger than {most} together", where=path, remedy=remedy) from error
-
-    async def put_template(self, name: str, chunks: AsyncIterator[bytes]) -> Path:
-        """Store a template, and return its path; name: what the page calls it. Raises TooLargeError for its size."""
-        path = self.folder / f"template-{uuid4().hex}"
-        await save_stream(path, chunks, MOST_TEMPLATE, name)
-        return path
 
     def list_files(self) -> tuple[Path, tuple[str, ...]]:
         """Return the folder of the uploaded files, and their paths in it."""

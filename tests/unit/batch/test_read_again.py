@@ -5,7 +5,7 @@ import signal
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch import read_again
+from meshforge.batch.report.contents import read_again
 from meshforge.formats import load
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.batch.families import write_table

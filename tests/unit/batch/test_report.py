@@ -156,25 +156,11 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
     assert page.xpath("//div[@class='bar']/i/@class") == ["needs-review", "sure", "signed-off", "excluded"]
 
 
-@pytest.mark.slow
-def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
-    mesh, shown = table(), []
-    for hulls in ((), (mesh.hulls[0].name,), tuple(mesh.index)):
-        found = Examination((Finding("odd", "warning", hulls, "odd", "Mend it."),))
-        asset = ReportAsset("a", mesh, mesh, (), "warnings", checked=found)
-        write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset])
-        page = opened(tmp_path / "r.html")
-        told = "named by a finding, the rest pale" in texts(page, "//ul[@class='legend']/li")
-        shown.append((page.xpath("//img/@src")[0], told))
-    assert [told for _, told in shown] == [False, True, False]  # where all are named, none would stand out
-    assert shown[0][0] == shown[2][0] != shown[1][0]
-
-
 def test_long_lists_of_notes_and_findings_are_cut_and_counted(tmp_path: Path) -> None:
     mesh = SymbolicMesh(table().hulls[:1])
     found = Examination(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)))
     notes = tuple(f"note {k}" for k in range(9))
-    asset = ReportAsset("a", mesh, mesh, (), "warnings", notes=notes, checked=found)
+    asset = ReportAsset("a", mesh, mesh, notes=notes, checked=found)
     write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset], options=ReportOptions(pictured=0))
     page = opened(tmp_path / "r.html")
     assert texts(page, "//article/p") == list(notes[:6]) and texts(page, "//summary")[0] == "and 3 more"

@@ -65,7 +65,7 @@ def welded_l() -> tuple[Floats, Ints, SurfaceParts]:
 
 
 def cup() -> tuple[Floats, Ints, SurfaceParts]:
-    """A box with a pocket from above, outside and inside of different materials, and a rim between them."""
+    """A box with a pocket from above, outside and inside in different groups, and a rim between them."""
     outer, inner = box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 4))
     vertices = np.concatenate([outer[0], inner[0]])
     kept = np.delete(np.arange(12), [2, 3])  # without the lids
@@ -106,7 +106,7 @@ def test_a_part_of_two_triangles_joins_what_it_touches_and_a_note_says_so() -> N
     assert "decal" in notes[0]
 
 
-def test_six_sides_of_a_box_with_a_material_each_become_one_part() -> None:
+def test_six_sides_of_a_box_that_are_groups_become_one_part() -> None:
     vertices, faces = box((0, 0, 0), (1, 1, 1))
     parts = SurfaceParts(np.repeat(np.arange(6), 2), tuple("abcdef"))
     (only,) = decompose_by_parts(vertices, faces, parts, QUICK, close=True)
@@ -120,7 +120,7 @@ def test_the_inside_of_a_cup_is_no_part_of_its_own_so_the_cup_stays_hollow() -> 
     assert not joined.is_divided and "inside" in notes[0]
 
 
-def test_parts_are_no_finer_than_the_whole_at_a_threshold_relative_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_part_is_decomposed_by_the_settings_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[CoacdSettings] = []
 
     def record(vertices: Floats, faces: Ints, settings: CoacdSettings, **more: Any) -> list[Polytope]:
@@ -129,9 +129,9 @@ def test_parts_are_no_finer_than_the_whole_at_a_threshold_relative_to_it(monkeyp
 
     monkeypatch.setattr(by_parts, "decompose", record)
     vertices, faces, parts = stack(box((0, 0, 0), (4, 1, 1)), box((5, 0, 0), (6, 1, 1)))
-    decompose_by_parts(vertices, faces, parts, CoacdSettings(threshold=0.2, resolution=200, max_convex_hull=5))
-    assert [settings.threshold for settings in asked] == [pytest.approx(0.3), 1.0]
-    assert sum(settings.max_convex_hull for settings in asked) == 5
+    settings = CoacdSettings(threshold=0.2, resolution=200, max_convex_hull=5)
+    decompose_by_parts(vertices, faces, parts, settings)
+    assert asked == [settings] * 2
 
 
 def test_a_flat_part_becomes_a_thin_sheet_and_a_line_is_left_out_with_a_note() -> None:

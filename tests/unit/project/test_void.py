@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS
+from meshforge.common import write_atomically
 from meshforge.language import Add, Delete, Program
 from meshforge.project import Project, make_manual_edit, run_with_manual_edits
 from meshforge.store import ANSWERS
@@ -56,7 +57,7 @@ def signed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for asset in (FIRST, SECOND):
         project.demonstrate(asset, STEPS)
     project.synthesize()
-    project.add_template("knob.obj", knob(0.01))
+    write_atomically(project.layout.own_templates / "knob.obj", knob(0.01))
     add_knob(project)
     list(project.apply(execution=IN_PROCESS))
     project.set_verdict(ACCEPTED, "accepted")
@@ -137,7 +138,7 @@ def change_program(project: Project) -> None:
 
 
 def change_template(project: Project) -> None:
-    project.add_template("knob.obj", knob(0.02))
+    write_atomically(project.layout.own_templates / "knob.obj", knob(0.02))
 
 
 def change_edits_by_hand(project: Project) -> None:

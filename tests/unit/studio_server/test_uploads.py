@@ -10,8 +10,7 @@ import pytest
 from meshforge.common import ProjectError, UsageError
 from meshforge.samples import TABLES
 from meshforge.studio import transfers
-from meshforge.studio.errors import TooLargeError
-from meshforge.studio.transfers import Uploads, confine_path, find_assets, save_stream
+from meshforge.studio.transfers import TooLargeError, Uploads, confine_path, find_assets, save_stream
 from meshforge.studio.workers import Workers
 
 Result = TypeVar("Result")
@@ -53,12 +52,8 @@ def test_a_file_that_is_too_large_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_what_is_too_large_is_called_as_the_page_calls_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for most in ("MOST_TEMPLATE", "MOST_ONE_FILE"):
-        monkeypatch.setattr(transfers, most, 5)
+    monkeypatch.setattr(transfers, "MOST_ONE_FILE", 5)
     home = Uploads(tmp_path / "uploads")
-    with pytest.raises(TooLargeError) as refused:
-        asyncio.run(home.put_template("tray.obj", chunks(b"123456")))
-    assert refused.value.where == "tray.obj"
     with pytest.raises(TooLargeError) as refused:
         asyncio.run(home.put("robot/arm.stl", chunks(b"123456")))
     assert refused.value.where == "robot/arm.stl"

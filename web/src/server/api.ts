@@ -71,7 +71,6 @@ export const api = {
   labelSources: () => getJson<LabelSources>("api/labels/sources"),
   startJob: (request: JobRequest) => postJson<Job>("api/jobs", request),
   cancelJob: (id: string) => postJson<Job>("api/jobs/cancel", { id }),
-  uploadTemplate: (file: File) => putBytes<UploadReceipt>("api/templates", { name: file.name }, file),
   stageAssetFile: (path: string, file: Blob) => putBytes<UploadReceipt>("api/assets", { path }, file),
   takeAssets: () => postJson<UploadReceipt>("api/assets", {}),
   listFolder: (folder: string) => getJson<FolderView>("api/start/folder", { folder }),

@@ -62,11 +62,11 @@ describe("a request", () => {
     expect([method, body, headers?.["Content-Type"]]).toEqual(["POST", '{"kind":"label","hulls":["x"]}', "application/json"]);
   });
 
-  it("uploads a file as it is, with its name in the query", async () => {
+  it("uploads a file as it is, with its path in the query", async () => {
     answer('{"names":["tray.obj"]}');
     const file = new Blob(["v 0 0 0"]);
-    expect(await putBytes("api/templates", { name: "tray.obj" }, file)).toEqual({ names: ["tray.obj"] });
-    expect([calls[0]?.path, calls[0]?.init.method, calls[0]?.init.body]).toEqual(["api/templates?name=tray.obj", "PUT", file]);
+    expect(await putBytes("api/assets", { path: "tray.obj" }, file)).toEqual({ names: ["tray.obj"] });
+    expect([calls[0]?.path, calls[0]?.init.method, calls[0]?.init.body]).toEqual(["api/assets?path=tray.obj", "PUT", file]);
   });
 
   it("gives bytes where they are asked for", async () => {

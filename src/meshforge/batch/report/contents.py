@@ -25,15 +25,8 @@ if TYPE_CHECKING:
     from meshforge.signoff import ResultStatus, ResultStatusWord
 
 
-EditStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
+ReportStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
 """What a program or a conversion made of an asset; not written: nothing, since its edit is not sure enough."""
-CheckStatus = Literal["clean", "warnings", "errors", "failed"]
-"""What checks found of one; failed: it could not be checked, or not be written."""
-ReportStatus = EditStatus | CheckStatus
-ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "clean"})
-"""What is expected of an asset, so that its card does not say it."""
-BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors"})
-REMARKABLE = BROKEN | {"warnings"}
 
 MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""
@@ -45,8 +38,7 @@ READ_TIMEOUT = 300.0
 class ReportAsset:
     """One asset of a batch.
 
-    before: None where the file could not be read; after: None where the program could not run on it, `before` itself
-    where nothing was to be changed.
+    before: None where the file could not be read; after: None where the program could not run on it.
     trace: of every rule; error: the whole message of a failed asset; demonstrated: whether a person edited it.
     notes: what else there is to say, as what the format had to write in another form; checked: what was measured of it
     after, where asked for; alarms: why the result stands out, a sentence each; standing: None without a project.
@@ -82,7 +74,7 @@ class ReportAsset:
     @property
     def is_broken(self) -> bool:
         """Whether it failed, or an error was found when it was checked."""
-        return self.status in BROKEN or self.has_errors
+        return self.status == "failed" or self.has_errors
 
     @property
     def needs_review(self) -> bool:
@@ -223,14 +215,12 @@ class PictureOptions:
 class AssetPictures:
     """Addresses `data:…` of an asset's pictures; after and changes are None where nothing changed.
 
-    has_blame: whether hulls that findings name stand out in them; checks, goals: what pictures of checks and of goals
-    that fail show, and these.
+    checks, goals: what pictures of checks and of goals that fail show, and these.
     """
 
     before: str
     after: str | None = None
     changes: str | None = None
-    has_blame: bool = False
     checks: tuple[tuple[str, str], ...] = ()
     goals: tuple[tuple[str, str], ...] = ()
 
@@ -242,28 +232,19 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
         return None
     color_by: ColorBy = "label" if options.by_label else "hull"
     checks, goals = _draw_checks(asset, after or before), tuple(_read_goal_pictures(asset))
-    if after is None or after is before or asset.status == "unchanged" or not (before.hulls or after.hulls):
-        blamed = _find_hulls_to_blame(asset, before) if after is before else None
+    if after is None or asset.status == "unchanged" or not (before.hulls or after.hulls):
         image = render(
             before,
             color_by=color_by,
             size=PICTURE_SIZE,
-            highlight=blamed,
             vocabulary=options.vocabulary,
             background=None,
             legend=False,
         )
-        return AssetPictures(_to_data_url(image), has_blame=blamed is not None, checks=checks, goals=goals)
+        return AssetPictures(_to_data_url(image), checks=checks, goals=goals)
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)
     changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
     return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks, goals=goals)
-
-
-def _find_hulls_to_blame(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[str] | None:
-    """The hulls that findings name, of errors where there are any; None for none or all: then none would stand out."""
-    errors = [finding for finding in asset.findings if finding.severity == "error"]
-    named = frozenset(hull for finding in errors or asset.findings for hull in finding.hulls) & mesh.index.keys()
-    return named if 0 < len(named) < len(mesh.hulls) else None
 
 
 def _draw_checks(asset: ReportAsset, mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:

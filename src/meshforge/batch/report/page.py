@@ -15,26 +15,14 @@ from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
-from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, label_colors, look_of
+from meshforge.rendering import DIFFERENCE_COLORS, UNLABELLED, label_colors, look_of
 from meshforge.symbolic import find_unchanged
 
 MOST_PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
-STATUSES: tuple[contents.ReportStatus, ...] = (
-    "edited",
-    "unchanged",
-    "skipped",
-    "not written",
-    "clean",
-    "warnings",
-    "errors",
-    "failed",
-)
-"""In the order of the page."""
 _SETTINGS = {
     "picture_size": contents.PICTURE_SIZE,
     "check_size": contents.CHECK_PICTURE_SIZE,
-    "ordinary": contents.ORDINARY,
     "names_shown": 60,  # of hulls in one cell of the table; the rest is counted
     "notes_shown": 6,  # at once
     "findings_shown": 40,  # of one asset, errors first
@@ -95,6 +83,7 @@ def write_report(
     from meshforge.signoff import ResultStatusWord  # lazy: 0.02 s, which only pages take
 
     words: tuple[ResultStatusWord, ...] = get_args(ResultStatusWord)
+    statuses: tuple[contents.ReportStatus, ...] = get_args(contents.ReportStatus)
     if any(asset.result_status for asset in assets):
         assets = sorted(assets, key=lambda asset: asset.rank)
     elif any(asset.checked for asset in assets):
@@ -122,16 +111,16 @@ def write_report(
         **_SETTINGS,
         header=header,
         figures=figures,
-        counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
+        counts=[(status, figures.counts[status]) for status in statuses if figures.counts.get(status)],
         result_statuses=[(word, n) for word in words if (n := figures.result_statuses.get(word))],
         selection=_describe_selection(len(assets), figures),
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
         rules=[_rule_row(k, rule, assets) for k, rule in enumerate(program.rules, 1)] if program else [],
         highlight=partial(_tokenize, colors={show_label(label): color for label, color in colors.items()}),
-        label_legend=_label_legend(assets, colors if labelled else {}, any(s.has_blame for s in drawn)),
+        label_legend=_label_legend(assets, colors if labelled else {}),
         change_legend=_change_legend(assets) if any(shown.changes for shown in drawn) else None,
-        kinds=_kinds(assets, words),
+        kinds=_kinds(assets, [*statuses, *words]),
         has_pairs=any(shown.after for shown in drawn),
         cards=cards,
     )
@@ -161,9 +150,7 @@ def _describe_selection(shown: int, figures: contents.RunFigures) -> str | None:
     if shown >= figures.total:
         return None
     some = f"{shown:,} of {figures.total:,} assets are shown"
-    remarkable = any(
-        n and word in contents.REMARKABLE for word, n in figures.counts.items()
-    ) or figures.result_statuses.get("needs review")
+    remarkable = figures.counts.get("failed") or figures.result_statuses.get("needs review")
     return f"{some}, {figures.first} first." if remarkable else f"{some}."
 
 
@@ -174,10 +161,10 @@ def _describe_findings(found: Sequence[Finding]) -> str:
 
 def _kinds(assets: Sequence[contents.ReportAsset], words: Sequence[str]) -> list[str]:
     present = {word for asset in assets for word in (asset.status, asset.result_status and asset.result_status.word)}
-    kinds: list[str] = [word for word in (*STATUSES, *words) if word in present]
+    kinds: list[str] = [word for word in words if word in present]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
-    if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):
+    if any(asset.findings or asset.alarms for asset in assets):
         kinds.append("doubtful")
     return kinds
 
@@ -192,10 +179,10 @@ class _LegendRow(NamedTuple):
         return cls(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
 
 
-def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, str], blamed: bool) -> list[_LegendRow]:
+def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, str]) -> list[_LegendRow]:
     """Each label with its colour, and its hulls before and after; empty where there is no mesh.
 
-    colors: empty where each hull has its own; blamed: whether hulls stand out for findings.
+    colors: empty where each hull has its own.
     """
     meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
     if not meshes:
@@ -210,8 +197,6 @@ def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, s
     looks = {look_of(hull.annotation) for mesh in meshes for hull in mesh.hulls}
     marks = {"guessed": "dotted: a guessed label", "unsure": "hatched: an unsure label"}
     entries += [_LegendRow(None, "", text) for look, text in marks.items() if look in looks]
-    if blamed:
-        entries.append(_LegendRow(SELECTED, "", "named by a finding, the rest pale"))
     return entries
 
 

@@ -86,21 +86,16 @@ def _refuse_numbers(geometry: Any) -> None:
 
 def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
-    listed = list(_list_triangles(bound))
     parts = [
         (np.asarray(found.vertex, dtype=np.float64), np.asarray(found.vertex_index, dtype=np.int64))
-        for _, found in listed
+        for found in _list_triangles(bound)
     ]
     if parts:
-        names = [str(getattr(part.original, "material", None) or "") for part, _ in listed]
-        known = ("", *dict.fromkeys(filter(None, names)))
-        places = np.array([known.index(name) for name in names])
-        materials = (np.repeat(places, [len(faces) for _, faces in parts]), known) if len(known) > 1 else None
-        yield RawSurface(name, *stack_triangles(parts), unit, materials)
+        yield RawSurface(name, *stack_triangles(parts), unit)
 
 
-def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:
-    """The sets of polygons of a geometry, one a material, each with its triangles; none that has none."""
+def _list_triangles(bound: Any) -> Iterator[Any]:
+    """The triangles of each set of polygons of a geometry, one a material; none that has none."""
     for part in bound.primitives():
         counts = getattr(part.original, "vcounts", None)
         if counts is not None and int(np.sum(counts)) != len(part.index):
@@ -109,4 +104,4 @@ def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:
         if not hasattr(triangles, "vertex_index") or np.ndim(triangles.vertex_index) != 2 or not len(triangles):
             continue
         if triangles.vertex_index.shape[1] == 3:
-            yield part, triangles
+            yield triangles

@@ -23,7 +23,7 @@ from meshforge.formats.meshfile.gltf_document import (
     report_damage,
 )
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
-from meshforge.geometry import Floats, Ints, rotation_of_quaternion
+from meshforge.geometry import Floats, rotation_of_quaternion
 
 _INSTANCING = "EXT_mesh_gpu_instancing"
 SKINNED = "a mesh that a skin moves, which is not read"
@@ -49,20 +49,7 @@ def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface
     if "mesh" in placement.node:
         mesh, linear, offset = scene.place_mesh(placement)
         name = placement.node.get("name") or entry(scene.tree, "meshes", placement.node["mesh"]).get("name")
-        materials = _materials_of(scene, placement.node["mesh"], mesh)
-        yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces, materials=materials)
-
-
-def _materials_of(scene: GltfScene, index: int, mesh: gltf_meshes.GltfMesh) -> tuple[Ints, tuple[str, ...]] | None:
-    parts = entries(entry(scene.tree, "meshes", index), "primitives")
-    numbers = [parts[patch.index].get("material") for patch in mesh.patches]
-    names = [str(entry(scene.tree, "materials", k).get("name") or f"material_{k}") for k in numbers if k is not None]
-    if not names:
-        return None
-    known = ("", *dict.fromkeys(names))
-    own_names = iter(names)
-    places = [0 if k is None else known.index(next(own_names)) for k in numbers]
-    return np.repeat(np.array(places), [len(patch.faces) for patch in mesh.patches]), known
+        yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

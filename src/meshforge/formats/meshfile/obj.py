@@ -58,13 +58,10 @@ class ObjText:
     def surfaces(self, where: str) -> list[surface.RawSurface]:
         """Return a surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
         names = group_names(self.groups)
-        of_face, materials = self.materials()
-        parts = []
-        for k, name in enumerate(names):
-            own = self.face_group == k
-            own_materials = (of_face[own], materials) if len(materials) > 1 else None
-            parts.append(surface.RawSurface(name, self.vertices, self.faces[own], materials=own_materials))
-        return surface.check_surfaces(parts, where)
+        own = (self.faces[self.face_group == k] for k in range(len(names)))
+        return surface.check_surfaces(
+            [surface.RawSurface(name, self.vertices, faces) for name, faces in zip(names, own, strict=True)], where
+        )
 
 
 def statements_of(data: bytes) -> list[bytes]:

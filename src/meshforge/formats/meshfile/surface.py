@@ -1,4 +1,4 @@
-"""What every mesh file is read into: named surfaces, checked for damage, and their parts, by groups and materials."""
+"""What every mesh file is read into: named surfaces, checked for damage, and their parts, by groups."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -14,7 +14,6 @@ GAMMA = 2.2
 """Colours of glTF and USD are linear, those of other formats are as screens show them."""
 
 _ODD = re.compile(r"[^A-Za-z0-9_]+")
-_MATERIALS = tuple[Ints, tuple[str, ...]]
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
 FARTHEST = 1e15
 """The largest coordinate that is read: farther out, doubles are coarser than a decimetre, and volumes overflow."""
@@ -25,14 +24,12 @@ class RawSurface:
     """A named part of a mesh file (group, object, node); vertices (n, 3) in the file's own unit, faces (m, 3).
 
     unit: the metres that the file says its unit has; most engines take no notice of it.
-    materials: (m,) the material of each face, and the names of all; None where the file has none.
     """
 
     name: str | None
     vertices: Floats
     faces: Ints
     unit: float = 1.0
-    materials: _MATERIALS | None = None
 
 
 def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
@@ -138,29 +135,17 @@ def remedy_for(words: Sequence[bytes]) -> str:
 def parts_of_surfaces(surfaces: Sequence[RawSurface], name: str = "") -> SurfaceParts:
     """Return the parts of surfaces one after the other; name: what one is called that has no name."""
     group = np.repeat(np.arange(len(surfaces)), [len(surface.faces) for surface in surfaces])
-    own_materials = [surface.materials or (np.zeros(len(surface.faces), dtype=np.int64), ("",)) for surface in surfaces]
-    known = tuple(dict.fromkeys(name for _, names in own_materials for name in names))
-    owners = [np.array([known.index(name) for name in names])[owner] for owner, names in own_materials]
-    materials = (np.concatenate(owners), known) if owners else None
-    return parts_of_groups(group, [surface.name or name for surface in surfaces], materials)
+    return parts_of_groups(group, [surface.name or name for surface in surfaces])
 
 
-def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERIALS | None = None) -> SurfaceParts:
-    """Return the parts of triangles of some groups (m,); each group with several materials is a part a material.
+def parts_of_groups(group: Ints, names: Sequence[str | None]) -> SurfaceParts:
+    """Return the parts of triangles of some groups (m,), a part a group, called as it is.
 
-    group: negative for triangles that are only seen; names: of the groups. A part is called by its group, or by its
-    material where it has no other name, or there are several in the group.
+    group: negative for triangles that are only seen; names: of the groups.
     """
-    owner, known = materials or (np.zeros(len(group), dtype=np.int64), ("",))
-    keys, of_face = np.unique(group * len(known) + owner, return_inverse=True)
-    pairs = np.column_stack(np.divmod(keys, len(known)))
-    several = {int(k) for k, count in zip(*np.unique(pairs[:, 0], return_counts=True), strict=True) if count > 1}
-    called: list[str] = []
-    for k, material in pairs.tolist():
-        own = (names[k] if 0 <= k < len(names) else None) or ""
-        words = [own, known[material] if k in several or not own else ""]
-        called.append("_".join(filter(None, words)) or f"part_{len(called)}")
-    return SurfaceParts(of_face.reshape(-1), tuple(called))
+    numbers, of_face = np.unique(group, return_inverse=True)
+    own = [names[k] if 0 <= k < len(names) else None for k in numbers.tolist()]
+    return SurfaceParts(of_face.reshape(-1), tuple(name or f"part_{k}" for k, name in enumerate(own)))
 
 
 def plain_part_name(name: str) -> str:

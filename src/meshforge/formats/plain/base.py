@@ -196,5 +196,4 @@ def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
 
 def _surface_of(soup: Soup, piece: Piece) -> Surface:
     own = piece.face_indices
-    materials = next(((owner[own], names) for kind, owner, names in soup.mentions if kind == "material"), None)
-    return Surface(piece.vertices, piece.faces, parts=parts_of_groups(soup.group[own], soup.names, materials))
+    return Surface(piece.vertices, piece.faces, parts=parts_of_groups(soup.group[own], soup.names))

@@ -2,14 +2,14 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from meshforge.common import GeometryError, join_names, pluralize
+from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.decomposition import engines
@@ -28,8 +28,6 @@ from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import rises_above
 
 _WITHIN = 1e-6  # of the size: a hull that rises above the hull of its part by less is within it
-_LEAST_VOXELS = 10_000  # of a part, for V-HACD, unless the whole is to have fewer
-_LOW, _HIGH = 0.01, 1.0  # the limits of CoACD's threshold
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -53,39 +51,35 @@ def decompose_by_parts(
 ) -> list[PartHull]:
     """Return convex hulls of a surface, each within the convex hull of its part; those of a part follow each other.
 
-    vertices (n, 3) [m], faces (m, 3), parts: of these faces. Sizes and counts in the settings are of the whole: a part
-    gets a threshold, voxels and a share of the most hulls by its size. close: see `decompose`; of a surface that is
-    closed, the parts are closed in any case. Flat parts become thin sheets. A part without an area is left out.
-    Raises GeometryError: nothing can be decomposed, or an engine failed on a part, which it names.
+    vertices (n, 3) [m], faces (m, 3), parts: of these faces; settings: of each part, as if it were alone. close: see
+    `decompose`; of a surface that is closed, the parts are closed in any case. Flat parts become thin sheets. A part
+    without an area is left out. Raises GeometryError: nothing can be decomposed, or an engine failed on a part, which
+    it names.
     """
     points, triangles = freeze_floats(vertices, (-1, 3)), freeze_ints(faces, (-1, 3))
     engine = settings or engines.CoacdSettings()
     whole = None if is_sheet(points[triangles].reshape(-1, 3)) else clean_triangles(points, triangles)
     close = close or (whole is not None and not whole.open_edges)
     joined = join_small_parts(points, triangles, parts, note)
-    shares = _share_settings(points, triangles, joined, engine, note)
     end = None if control.timeout is None else time.monotonic() + control.timeout
-    notes: dict[str, list[str]] = {}
     found: list[PartHull] = []
-
-    def add_note(name: str, text: str) -> None:
-        notes.setdefault(text, []).append(name)
 
     def report(title: str, text: str) -> None:
         control.progress(f"{title}: {text}")
 
-    for number, (part, own) in enumerate(shares.items(), 1):
+    def add_note(name: str, text: str) -> None:
+        note(f"{name}: {text}")
+
+    for number, part in enumerate(joined.numbers, 1):
         name = joined.names[part]
-        title = f"part {number} of {len(shares)}, {name}"
+        title = f"part {number} of {len(joined.numbers)}, {name}"
         control.progress(title)
         left = None if end is None else max(end - time.monotonic(), 0.0)
         limited = engines.EngineControl(partial(report, title), control.cancel, left)
         add = partial(add_note, name)
-        run = partial(decompose, settings=own, close=close, cache=cache, note=add, control=limited)
+        run = partial(decompose, settings=engine, close=close, cache=cache, note=add, control=limited)
         hulls = _decompose_part(points, triangles[joined.of_face == part], name, close, run, add)
         found += [PartHull(part, hull) for hull in hulls]
-    for text, names in notes.items():
-        note(f"{join_names(list(dict.fromkeys(names)), 3)}: {text}")
     if not found:
         raise GeometryError(f"{engine.engine} made no hull", remedy="Decompose it as a whole, or fix the mesh.")
     return found
@@ -134,51 +128,3 @@ def _keep_within(points: Floats, hulls: list[Polytope]) -> list[Polytope]:
         else:
             kept.append(hull)
     return kept or [around]
-
-
-def _share_settings(
-    points: Floats,
-    triangles: Ints,
-    parts: SurfaceParts,
-    settings: engines.DecomposeSettings,
-    note: Callable[[str], None],
-) -> dict[int, engines.DecomposeSettings]:
-    """The settings of each part, by its number, so that they mean for it what they mean for the whole."""
-    numbers = parts.numbers
-    if isinstance(settings, engines.HullSettings):
-        return dict.fromkeys(numbers, settings)
-    sizes = {k: np.ptp(points[np.unique(triangles[parts.of_face == k])], axis=0) for k in numbers}
-    whole = np.ptp(points[np.unique(triangles)], axis=0)
-    most = settings.max_convex_hull if isinstance(settings, engines.CoacdSettings) else settings.max_convex_hulls
-    counts = _share_count(most, np.array([np.linalg.norm(sizes[k]) for k in numbers]))
-    if 0 < most < len(numbers):
-        note(f"{pluralize(len(numbers), 'part')} cannot share {pluralize(most, 'hull')}: each part gets one")
-    return {k: scale_settings(settings, sizes[k], whole, own) for k, own in zip(numbers, counts, strict=True)}
-
-
-def scale_settings(
-    settings: engines.DecomposeSettings, size: Floats, whole: Floats, most: int
-) -> engines.DecomposeSettings:
-    """Return the settings of a part of some extents (3,) [m] of a whole of others, so that they mean for it what they
-    mean for the whole; most: its share of the hulls."""
-    if isinstance(settings, engines.HullSettings):
-        return settings
-    if isinstance(settings, engines.CoacdSettings):
-        ratio = float(whole.max() / size.max()) if size.max() > 0 and not settings.real_metric else 1.0
-        threshold = settings.threshold if ratio == 1.0 else float(np.clip(settings.threshold * ratio, _LOW, _HIGH))
-        return replace(settings, threshold=threshold, max_convex_hull=most)
-    box = float(np.prod(size) / np.prod(whole)) if np.prod(whole) > 0 else 1.0
-    least = min(_LEAST_VOXELS, settings.resolution)
-    voxels = int(np.clip(round(settings.resolution * box), least, settings.resolution))
-    return replace(settings, resolution=voxels, max_convex_hulls=most)
-
-
-def _share_count(most: int, sizes: Floats) -> list[int]:
-    """How many hulls of `most` each part (k,) may have, one at least; -1, no limit, for all where `most` is that."""
-    if most < 1:
-        return [most] * len(sizes)
-    exact = sizes / sizes.sum() * most if sizes.sum() > 0 else np.full(len(sizes), most / len(sizes))
-    counts = np.maximum(np.floor(exact).astype(np.int64), 1)
-    for k in np.argsort(counts - exact, kind="stable")[: max(most - int(counts.sum()), 0)]:
-        counts[k] += 1
-    return [int(count) for count in counts]

@@ -4,7 +4,7 @@ solid decomposed by itself, its pieces cut at creases; with the region of the su
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from itertools import chain, islice
@@ -17,7 +17,6 @@ from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition import engines, regions
-from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
 from meshforge.geometry.decomposition.run import (
     cache_key,
@@ -47,6 +46,8 @@ _COMPLETE = 0.97  # of a solid's volume, that pieces of its regions must make up
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
 _MOST = 80  # components that are decomposed, the largest
 _NAME = "a piece of the surface"
+_LEAST_VOXELS = 10_000  # of a region, for V-HACD, unless the solid is to have fewer
+_LOW, _HIGH = 0.01, 1.0  # the limits of CoACD's threshold
 
 
 def decompose_finely(
@@ -136,9 +137,24 @@ def _list_regions(solid: _Solid) -> list[_Solid]:
     size = np.ptp(solid.vertices[solid.faces], axis=(0, 1))
     found = list[_Solid]()
     for region in regions.list_region_solids(solid.vertices, solid.faces):
-        own = scale_settings(solid.settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size, -1)
+        own = _scale_settings(solid.settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size)
         found.append(_Solid(region.vertices, region.faces, own, region.open_edges > 0))
     return found
+
+
+def _scale_settings(settings: engines.DecomposeSettings, size: Floats, whole: Floats) -> engines.DecomposeSettings:
+    """The settings of a region of some extents (3,) [m] of a solid of others, so that they mean for it what they mean
+    for the solid."""
+    if isinstance(settings, engines.HullSettings):
+        return settings
+    if isinstance(settings, engines.CoacdSettings):
+        ratio = float(whole.max() / size.max()) if size.max() > 0 and not settings.real_metric else 1.0
+        threshold = settings.threshold if ratio == 1.0 else float(np.clip(settings.threshold * ratio, _LOW, _HIGH))
+        return replace(settings, threshold=threshold, max_convex_hull=-1)
+    box = float(np.prod(size) / np.prod(whole)) if np.prod(whole) > 0 else 1.0
+    least = min(_LEAST_VOXELS, settings.resolution)
+    voxels = int(np.clip(round(settings.resolution * box), least, settings.resolution))
+    return replace(settings, resolution=voxels, max_convex_hulls=-1)
 
 
 def _join_regions(

@@ -1,4 +1,4 @@
-"""The parts of a surface whose boundaries are known, from names or materials: a part for each triangle;
+"""The parts of a surface whose boundaries are known, from names: a part for each triangle;
 parts that are too small, or that bound a hollow, joined with those that they touch."""
 
 from __future__ import annotations

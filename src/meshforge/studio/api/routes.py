@@ -9,19 +9,17 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
 from fastapi import APIRouter, Body, Query, Request, Response
-from starlette.concurrency import run_in_threadpool
 
 from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.rendering import LengthUnit
+from meshforge.store import NotHereError
 from meshforge.studio.api.connection import BodyText, CurrentSession, SenderId, packet_response
 from meshforge.studio.edits import AnyEdit
-from meshforge.studio.edits.assets import AddAssets, AddTemplate
-from meshforge.studio.errors import NotHereError
+from meshforge.studio.edits.assets import AddAssets
 from meshforge.studio.jobs import start_job
 from meshforge.studio.queries import assets, goals, packets, programs
-from meshforge.studio.session.session import Session
 from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
@@ -261,24 +259,6 @@ def get_label_sources(session: CurrentSession) -> requests.LabelSources:
     """Return where labels could come from, as far as assets are read by now."""
     offered = session.offers.of(session.project, session.pages.readable)
     return requests.LabelSources(files=len(offered.files), names=offered.named)
-
-
-@router.put("/api/templates")
-async def put_template(
-    session: CurrentSession, request: Request, name: str, page: SenderId = None
-) -> requests.UploadReceipt:
-    """Take a hull template."""
-    file = await session.uploads.put_template(name, request.stream())
-    return await run_in_threadpool(_add_template, session, name, file, page)
-
-
-def _add_template(session: Session, name: str, file: Path, page: str | None) -> requests.UploadReceipt:
-    """Keep an uploaded file as a template. Raises ProjectError: no name for one, or no convex hulls in it."""
-    try:
-        session.edit(AddTemplate(name=name, file=str(file)), page)
-    finally:
-        file.unlink(missing_ok=True)
-    return requests.UploadReceipt(names=(name,))
 
 
 @router.put("/api/assets")

@@ -21,17 +21,19 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
-from meshforge.common import MeshForgeError, UsageError, describe_invalid_field
+from meshforge.common import MeshForgeError, UsageError, describe_error, describe_invalid_field
+from meshforge.store import ConflictError, NotHereError
 from meshforge.studio.api import connection, routes, start
 from meshforge.studio.api.connection import Guard
-from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
+from meshforge.studio.transfers import TooLargeError
 from meshforge.studio.wire.events import Problem
 
 ADDRESS = "127.0.0.1"
 _LOG = logging.getLogger(__name__)
 
+_STATUSES = {ConflictError: 409, NotHereError: 404, TooLargeError: 413, MeshForgeError: 400}
 PAGE_FOLDER = Path(__file__).parent.parent / "static"
 
 
@@ -136,7 +138,7 @@ def _handle_error(_: Request, error: Exception) -> JSONResponse:
         case HTTPException():
             problem, status = Problem(message=str(error.detail)), error.status_code
         case _:
-            problem, status = problem_of(error), status_of(error)
+            problem, status = _problem_of(error), _status_of(error)
     if status == 500:
         _LOG.debug("a fault of the studio", exc_info=error)
     return JSONResponse(problem.model_dump(mode="json"), status)
@@ -159,3 +161,19 @@ def open_page(folder: Path) -> Any:
             "the page of the studio is not built", where=str(folder), remedy="Build it: script/build-web"
         )
     return PageFiles(directory=folder, html=True)
+
+
+def _status_of(error: Exception) -> int:
+    return next((status for kind, status in _STATUSES.items() if isinstance(error, kind)), 500)
+
+
+def _problem_of(error: Exception) -> Problem:
+    """An error in its parts; a fault of the studio in one sentence."""
+    if isinstance(error, MeshForgeError):
+        return Problem(
+            message=error.problem,
+            where=error.where,
+            remedy=error.remedy,
+            conflict=isinstance(error, ConflictError),
+        )
+    return Problem(message=describe_error(error, fault="start the studio with --debug to see where it comes from"))

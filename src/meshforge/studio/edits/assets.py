@@ -171,20 +171,6 @@ class DropManualEdits(_ManualEditBase):
         project.write_manual_edits(self.asset, ())
 
 
-class AddTemplate(Edit):
-    """Keep an uploaded file as a template. file: where it lies."""
-
-    title = "template {name} added"
-    name: str
-    file: str
-
-    def apply(self, project: Project) -> None:
-        project.add_template(self.name, Path(self.file).read_bytes())
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.own_templates / self.name,)
-
-
 def _count_or_name(ids: tuple[str, ...]) -> str:
     return ids[0] if len(ids) == 1 else pluralize(len(ids), "asset")
 

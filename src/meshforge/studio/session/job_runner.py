@@ -7,7 +7,7 @@ from threading import Event, Lock, RLock, Thread
 from time import monotonic
 
 from meshforge.common import StoppedError, UsageError, describe_error
-from meshforge.studio.errors import NotHereError
+from meshforge.store import NotHereError
 from meshforge.studio.wire.jobs import Job, JobKind, JobLine
 
 STOP_MESSAGE = "what was done by then stays."

@@ -13,10 +13,9 @@ from meshforge.common import ProjectError, UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.language import Program
 from meshforge.project import NextStep, Project
-from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
+from meshforge.store import History, HistoryEntry, Layout, MeshCache, NotHereError, list_files
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
-from meshforge.studio.errors import NotHereError
 from meshforge.studio.label_changes import EarlyLabels, LabelChanges
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.output_checks import OutputChecks

@@ -61,8 +61,8 @@ class SimilarView(Wire):
 
 
 class UploadReceipt(Wire):
-    """An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other
-    assets of it cannot be read, and were left out."""
+    """An upload is stored. names: the paths of asset files; problems: why other assets of it cannot be read, and were
+    left out."""
 
     names: tuple[str, ...]
     problems: tuple[str, ...] = ()
