@@ -154,6 +154,8 @@ def test_a_mesh_of_several_parts_has_a_note_and_one_without_too_where_they_are_a
     told = run("decompose", "row.obj", "-o", "hulls.obj", *QUICK_VOXELS)
     assert "--by parts keeps them apart" in told.err
     Path("bar.obj").write_text(obj(BAR))
+    first, second = Path("bar.obj").read_text().split("\nf ", 1)
+    Path("bar.obj").write_text(f"{first}\nusemtl a\nf {second}".replace("\nf ", "\nusemtl b\nf ", 3))  # are no parts
     assert "no parts are known" in run("decompose", "bar.obj", "-o", "h.obj", "--by", "parts", *QUICK_VOXELS).err
 
 
