@@ -184,13 +184,8 @@ class EngineCheck(MeasureCheck):
         return CheckFindings(tuple(check_limits(find_engine(self.name), subject.mesh, subject.legality[0])))
 
 
-class ValidatorCheck(MeasureCheck):
+class ValidatorCheck(EngineCheck):
     """Another validator, which is asked where the file is known: of a mesh alone it says nothing."""
-
-    compares = False
-
-    def __init__(self, validator: str) -> None:
-        self.name = validator
 
     def measure(self, subject: CheckSubject) -> CheckFindings:
         return CheckFindings()
