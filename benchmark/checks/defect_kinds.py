@@ -325,7 +325,7 @@ def _lay_on_its_side(subject: Subject) -> Defect | None:
     for hull in subject.hulls:
         shape = hull.shape
         if shape.kind in ("cylinder", "capsule") and subject.find_shown_box(hull.body):
-            pose = shape.pose  # type: ignore[attr-defined]
+            pose = shape.pose  # type: ignore[attr-defined]  # both kinds have one
             along, across = (float(np.ptp(shape.vertices @ pose.rotation[:, k])) for k in (2, 0))
             if abs(along - across) >= max(0.25 * max(along, across), 0.04 * subject.size):
                 turned = shape.transform(*_about(rotation_about(pose.rotation[:, 0], np.pi / 2), shape.centroid))

@@ -118,7 +118,8 @@ def _convert(folder: Path, path: Path, kind: str) -> Path:
 
 def _describe_simcheck(line: Row) -> Row:
     own = [one for one in line["findings"] if one["rule"] == "simcheck"]
-    found = Counter(_WORDS.match(one["message"])[1] for one in own if one["severity"] == "warning")  # type: ignore[index]
+    words = (_WORDS.match(one["message"]) for one in own if one["severity"] == "warning")
+    found = Counter(match[1] for match in words if match)
     return {
         "simcheck": "simcheck" in line,
         "errors": sum(one["severity"] == "error" for one in own),

@@ -53,7 +53,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const sure = useProject((state) => probabilityText(state, asset));
   const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
-  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
+  const description = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
   return (
     <div
       id={cardId(asset)}
@@ -70,7 +70,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
       onClick={(event) => clickCard(event, asset)}
       onDoubleClick={() => setLayout({ gallery: false })}
     >
-      <span className="visually-hidden">{said}</span>
+      <span className="visually-hidden">{description}</span>
       {card.error === null ? <Face card={card} large={large} selected={selected} /> : <Broken error={card.error} />}
       <div className={css.foot} aria-hidden>
         <span className={css.name}>

@@ -54,7 +54,7 @@ class Graspable(Goal):
                 return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
             first: Failure | None = None
             for grip in grips[:_MOST_TRIED]:
-                why = try_grasp(subject.hulls, part.lift(grip), self.pull, subject.touching)  # type: ignore[arg-type]
+                why = try_grasp(subject.hulls, part.lift(grip), self.pull, subject.touching)  # type: ignore[arg-type]  # one of its words
                 if why is None:
                     break
                 first = first or why

@@ -91,7 +91,7 @@ class Contains(Goal):
             places[f"room {number}"] = part.lift(replace(room, at=at, size=half))
         if not places:
             raise NotApplicableError(f"{self.holder} has no room that a thing could lie in")
-        return objects.try_contain(subject.hulls, places, self.shape, subject.touching)  # type: ignore[arg-type]
+        return objects.try_contain(subject.hulls, places, self.shape, subject.touching)  # type: ignore[arg-type]  # one of its words
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,7 @@ class Passes(Goal):
             ways[f"opening {number}"] = part.lift(replace(way, size=size))
         if not ways:
             raise NotApplicableError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
-        return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]
+        return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]  # one of its words
 
 
 def _find_place(

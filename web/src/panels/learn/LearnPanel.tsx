@@ -81,14 +81,14 @@ function LearnState() {
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
   const goals = useProject(openGoals);
-  const said = summarizeOutcome(outcome, assets, { assessment, assessing, goals });
-  const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
+  const summary = summarizeOutcome(outcome, assets, { assessment, assessing, goals });
+  const Icon = learning ? LoaderCircle : MOOD_ICONS[summary.mood];
   return (
-    <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">
+    <div className={css.state} data-mood={learning ? "plain" : summary.mood} role="status">
       <Icon size={18} aria-hidden className={learning ? css.spinning : undefined} />
       <div>
-        <strong>{learning ? "Learning…" : said.title}</strong>
-        {said.more && <p>{learning ? "The program below is the previous one." : said.more}</p>}
+        <strong>{learning ? "Learning…" : summary.title}</strong>
+        {summary.more && <p>{learning ? "The program below is the previous one." : summary.more}</p>}
       </div>
     </div>
   );
