@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 from meshforge.labels import OfferCache
-from meshforge.project import NextStep
+from meshforge.project import NextStep, Project
 from meshforge.store import History
 from meshforge.store.history import HistoryState
 from meshforge.studio.label_changes import LabelChanges
@@ -82,3 +82,17 @@ def test_the_next_step_is_never_to_learn_what_is_being_learned(tmp_path: Path) -
     assert "Apply" in next_text()
     shown.show(OutcomeChanged(outcome=OutcomeView(number=1, status="found", program="All => Delete\n"), learning=False))
     assert "Apply" in next_text()
+
+
+def test_a_project_that_cannot_be_read_shows_what_its_settings_say_now(tmp_path: Path) -> None:
+    project = demo_project(tmp_path)
+    text = project.layout.settings.read_text() + '\n[goals]\nbad = "flies("\n'
+    project.layout.settings.write_text(text)
+    changed = Project.open(project.folder)
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1")  # as a refresh leaves it that began before
+    checks = OutputChecks(tmp_path / "checks", Workers(1))
+    Refresher(lambda: changed, shown, checks, LabelChanges(History.open(project.folder)), OfferCache()).refresh(())
+    view = shown.shown.project
+    assert view.problem and "bad" in view.problem
+    assert [(goal.name, bool(goal.error)) for goal in view.goals] == [("bad", True)]
+    assert [label.name for label in view.vocabulary] == list(changed.words)

@@ -16,7 +16,8 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
-from meshforge.studio.queries.project import add_session, build_card, build_project_view
+from meshforge.studio.queries.goals import list_goal_views
+from meshforge.studio.queries.project import add_session, build_card, build_project_view, vocabulary_view
 from meshforge.studio.wire.events import ProjectChanged
 from meshforge.studio.wire.family import Card, NewAssetsView, ProjectView
 from meshforge.studio.wire.jobs import Job
@@ -64,10 +65,16 @@ class Refresher:
         except StoppedError:  # the studio is being closed
             return
         except MeshForgeError as error:
-            self._pages.change_project(problem=error.message)
+            self._show_problem(error.message)
         except Exception as error:
             _LOG.debug("refreshing cards failed", exc_info=True)
-            self._pages.change_project(problem=describe_error(error))
+            self._show_problem(describe_error(error))
+
+    def _show_problem(self, problem: str) -> None:
+        """What the settings say is shown with it: a refresh that began before they changed may have shown the old."""
+        project = self._project()
+        settings = {"vocabulary": vocabulary_view(project.words), "goals": list_goal_views(project)}
+        self._pages.change_project(problem=problem, **settings)
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         project = self._project()
