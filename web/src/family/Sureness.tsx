@@ -2,7 +2,7 @@
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
 import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
-import { barText, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
+import { barText, countSigned, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
 import { openGoals } from "../store/goals";
 import { useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
@@ -29,6 +29,7 @@ export function SignOff() {
 function Known({ assessment }: { assessment: AssessmentView }) {
   const { threshold: bar, excluded } = assessment;
   const goals = useProject(openGoals);
+  const signed = useProject(({ cards }) => countSigned(assessment, cards));
   const mood = moodOf(assessment, goals);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
@@ -38,8 +39,8 @@ function Known({ assessment }: { assessment: AssessmentView }) {
       <div className={css.line} data-mood={mood} role="status">
         <Icon size={14} aria-hidden />
         <div className={css.words}>
-          <strong>{signedText(assessment)}</strong>
-          <Meter assessment={assessment} />
+          <strong>{signedText(assessment, signed)}</strong>
+          <Meter assessment={assessment} signed={signed} />
           <span>
             {more.filter(Boolean).join("; ")}
             {look && (
@@ -58,9 +59,9 @@ function Known({ assessment }: { assessment: AssessmentView }) {
   );
 }
 
-/** The shares of the family that are signed off, excluded, to review, and not looked at; the words beside it say the same. */
-function Meter({ assessment: { signed_off, excluded, need_review, unseen } }: { assessment: AssessmentView }) {
-  const shares = { signed: signed_off, excluded, need_review, unseen };
+/** The shares of the family that are signed off, excluded, to review, and not looked at or tried; the words beside it say the same. */
+function Meter({ assessment: { signed_off, excluded, need_review, unseen }, signed }: { assessment: AssessmentView; signed: number }) {
+  const shares = { signed, excluded, need_review, unseen: unseen + signed_off - signed };
   return (
     <span className={css.meter} aria-hidden>
       {Object.entries(shares).map(([what, count]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}

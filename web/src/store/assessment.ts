@@ -1,5 +1,5 @@
 // How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
-import type { AssessmentView, ConfidenceView, ReviewQuestionView } from "../wire";
+import type { AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
 import type { ProjectState } from "./project";
 import { countText } from "./words";
 
@@ -42,8 +42,12 @@ export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "asse
   });
 }
 
-/** `Signed off 71 of 75`: of all assets, those that were not looked at counted. */
-export function signedText({ signed_off: signed, assets, unseen }: AssessmentView): string {
+/** How many assets are signed off: sure ones on which no goal is open, and what a person accepted. */
+export const countSigned = ({ assets }: AssessmentView, cards: Readonly<Record<string, Card>>): number =>
+  assets.filter(({ asset, state, reviewed }) => state === "signed" && (reviewed || !cards[asset]?.goals.some((goal) => goal.is_open))).length;
+
+/** `Signed off 71 of 75`: of all assets, those that were not looked at counted. signed: see `countSigned`. */
+export function signedText({ signed_off, assets, unseen }: AssessmentView, signed = signed_off): string {
   const [done, all] = [signed, assets.length + unseen].map((count) => count.toLocaleString("en-GB"));
   return `Signed off ${done} of ${all}`;
 }

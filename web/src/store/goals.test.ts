@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { GoalResultView } from "../wire";
-import { leftText, moodOf } from "./assessment";
+import { countSigned, leftText, moodOf, signedText } from "./assessment";
 import { countGoal, freeName, goalText, openGoals } from "./goals";
 import { countExportable, groupOf, listAcceptable } from "./reviews";
 import { sampleAssessment, sampleCard, sampleRow } from "./sample.test-help";
@@ -23,6 +23,9 @@ test("it is counted, said in words, flagged, and never signed off but by a perso
   expect(family.map(({ goals: [one] }) => one && goalText(one)).slice(0, 4)).toEqual(["holds", "fails: no grip", "fails: no grip; accepted all the same", "was not tried"]);
   expect(family.map((one) => groupOf(one))).toEqual(["open", "flagged", "open", "open", "open", "excluded"]);
   const sure = Object.fromEntries(family.map(({ asset }) => [asset, sampleRow({ asset })]));
+  const assessment = sampleAssessment(6, 0, { assets: family.map(({ asset }) => sampleRow({ asset, reviewed: asset === "c" })) });
+  expect(signedText(assessment, countSigned(assessment, cards))).toBe("Signed off 3 of 6");
+  expect(countSigned({ ...assessment, assets: [sampleRow({ asset: "d", reviewed: true })] }, cards)).toBe(1);
   expect(countExportable(family.slice(0, 5), sure).signed).toBe(3);
   expect(listAcceptable(family, sure)).not.toContain("b");
 });

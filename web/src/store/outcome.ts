@@ -13,8 +13,8 @@ export interface Summary {
 /** From which belief on another reading is worth a look; the same as in the synthesis. */
 const BELIEVABLE = 0.005;
 
-/** How sure the edits are: what is known of that, whether it is being worked out, and which goals are open, in words. */
-type Sureness = { assessment: AssessmentView | null; assessing: boolean; goals?: string | null };
+/** How sure the edits are: what is known of that, whether it is being worked out, which goals are open, in words, and `countSigned`. */
+type Sureness = { assessment: AssessmentView | null; assessing: boolean; goals?: string | null; signed?: number };
 
 /** assets: how many there are to be learned from; sure: without it nothing is known of how sure the edits are. */
 export function summarizeOutcome(
@@ -44,8 +44,8 @@ export function summarizeOutcome(
 const AFTER_FAILURE = "Learn again. If it fails again, undo your last change (Ctrl+Z), or demonstrate on another asset.";
 
 /** A program that fits: how sure its edits are; readings: what is known of those. */
-function summarizeFamily(readings: string | null, { assessment, assessing, goals = null }: Sureness): Summary {
-  if (assessment?.assets.length) return summary(moodOf(assessment, goals), signedText(assessment), [leftText(assessment, goals), readings].filter(Boolean).join("\n") || null);
+function summarizeFamily(readings: string | null, { assessment, assessing, goals = null, signed }: Sureness): Summary {
+  if (assessment?.assets.length) return summary(moodOf(assessment, goals), signedText(assessment, signed), [leftText(assessment, goals), readings].filter(Boolean).join("\n") || null);
   const wait = assessing ? "How sure its edits are is being worked out…" : "How sure its edits are is not known.";
   return summary("plain", "A program fits all your demonstrations", wait);
 }

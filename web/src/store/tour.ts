@@ -1,6 +1,6 @@
 // The guided tour of the demo: its marks, and how far one is; knows no DOM.
 import { create } from "zustand";
-import { leftText, signedText } from "./assessment";
+import { countSigned, leftText, signedText } from "./assessment";
 import { openGoals } from "./goals";
 import { type WorkspaceState, useWorkspace } from "./workspace";
 import { type ProjectState, useProject } from "./project";
@@ -39,7 +39,7 @@ const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
 /** How the tables stand, with nothing said of what is not known. */
 function tablesText({ assessment, cards }: ProjectState): string {
   if (!assessment?.assets.length) return "MeshForge is working out how sure it is of each table.";
-  return [`${signedText(assessment)}.`, leftText(assessment, openGoals({ cards }))].filter(Boolean).join(" ");
+  return [`${signedText(assessment, countSigned(assessment, cards))}.`, leftText(assessment, openGoals({ cards }))].filter(Boolean).join(" ");
 }
 
 export const TOUR_STOPS: readonly TourStop[] = [

@@ -13,6 +13,7 @@ import {
 } from "lucide-react";
 import { learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
+import { countSigned } from "../../store/assessment";
 import { openGoals } from "../../store/goals";
 import { countReadable, useProject } from "../../store/project";
 import { useWorkspace } from "../../store/workspace";
@@ -81,7 +82,8 @@ function LearnState() {
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
   const goals = useProject(openGoals);
-  const summary = summarizeOutcome(outcome, assets, { assessment, assessing, goals });
+  const signed = useProject(({ cards }) => assessment && countSigned(assessment, cards)) ?? undefined;
+  const summary = summarizeOutcome(outcome, assets, { assessment, assessing, goals, signed });
   const Icon = learning ? LoaderCircle : MOOD_ICONS[summary.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : summary.mood} role="status">
