@@ -5,7 +5,7 @@ import json
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,7 +16,7 @@ import numpy as np
 
 from meshforge.checks import EngineLoad
 from meshforge.checks.base import Given
-from meshforge.common import MeshForgeError, quote_path
+from meshforge.common import MeshForgeError, join_names, quote_path
 from meshforge.engines import EngineShape, Finding, ShapeComparison
 from meshforge.formats import ONE_FILE_A_HULL, MujocoLoad, format_for, format_of, save, try_in_mujoco, turn_upright
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere, rotation_of_quaternion
@@ -111,13 +111,26 @@ def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad
         rows = [] if refusal else json.loads(out.read_text("utf-8"))
     asked = f"PyBullet {version('pybullet')}"
     differing: tuple[Finding, ...] = ()
-    if any(row[0] == "unknown" for row in rows):
-        message = f"{asked} does not say what it makes of Collada files: the shapes are not compared"
-        differing = (Finding("bullet-unread", "warning", (), message, "Write the collision meshes as OBJ or STL."),)
+    if links := {row[1] for row in rows if row[0] == "unknown"}:
+        differing = (_describe_collada(asked, path, mesh, links),)
     elif mesh.asset is not None and not refusal:
         shapes = [_read_bullet_shape(*row) for row in rows]
         differing = _compare(engine, asked, path, mesh.to_asset(), shapes)
     return EngineLoad(engine, path.name, asked, "file", refusal, (), differing)
+
+
+def _describe_collada(asked: str, path: Path, mesh: SymbolicMesh, links: Collection[str]) -> Finding:
+    """What is said of Collada files in links, by rule: Bullet's importer (BulletUrdfImporter.cpp) puts all vertices of
+    such a file into one hull."""
+    names = [hull.name for hull in mesh.hulls if hull.body in links and "#" in hull.name]
+    if len(names) > len({name.rpartition("#")[0] for name in names}):
+        message = (
+            f"{asked} makes one hull of all of a Collada file, which closes what is between: {join_names(names, 5)}"
+        )
+        remedy = f"Give each hull a file of its own: meshforge convert {quote_path(path)} OUT --one-file-a-hull"
+        return Finding("bullet-joins", "error", tuple(names), message, remedy)
+    message = f"{asked} does not say what it makes of Collada files: the shapes are not compared"
+    return Finding("bullet-unread", "warning", (), message, "Write the collision meshes as OBJ or STL.")
 
 
 def _read_bullet_shape(

@@ -1,6 +1,6 @@
 """A program for a process of its own, since PyBullet may crash: loads a file in PyBullet, and writes the shapes that
-collide there as JSON rows: kind (`unknown` where it does not say what it has), size, position and quaternion in the
-root frame, points of a mesh, margin [m]."""
+collide there as JSON rows: kind (`unknown`, with the link for the size, where it does not say what it has), size,
+position and quaternion in the root frame, points of a mesh, margin [m]."""
 
 import json
 import sys
@@ -17,6 +17,8 @@ _KINDS = {
     bullet.GEOM_CYLINDER: "cylinder",
     bullet.GEOM_MESH: "mesh",
 }
+_MARGIN = 0.001
+"""Of each hull of a mesh [m], as its importers set it (gUrdfDefaultCollisionMargin); it says 0 of several in a link."""
 
 
 def _load(path: str) -> tuple[int, ...]:
@@ -31,7 +33,7 @@ def _load(path: str) -> tuple[int, ...]:
 def _read_link(body: int, link: int, alone: str) -> Iterator[list[Any]]:
     """The rows of a link; alone: the mesh file that all of it is of, which has a row there for each hull."""
     place = bullet.getLinkState(body, link)[:2] if link >= 0 else bullet.getBasePositionAndOrientation(body)
-    margin = bullet.getDynamicsInfo(body, link)[11]
+    name = (bullet.getJointInfo(body, link)[12] if link >= 0 else bullet.getBodyInfo(body)[0]).decode()
     for index, row in enumerate(bullet.getCollisionShapeData(body, link)[: 1 if alone else None]):
         kind, size, file = row[2:5]
         pose = bullet.multiplyTransforms(*place, *row[5:7])
@@ -42,16 +44,16 @@ def _read_link(body: int, link: int, alone: str) -> Iterator[list[Any]]:
         # in a link a mesh keeps its vertices to itself: the same file alone, of the same scale, has the same hulls,
         # of an OBJ one for each of its objects
         if not alone and file == b"unknown_file":  # a round shape of which it made a polytope
-            yield ["mesh", size, *place, bullet.getMeshData(body, link, collisionShapeIndex=index)[1], margin]
+            yield ["mesh", size, *place, bullet.getMeshData(body, link, collisionShapeIndex=index)[1], _MARGIN]
             continue
         try:
             shape = bullet.createCollisionShape(bullet.GEOM_MESH, fileName=alone or file.decode(), meshScale=size)
         except bullet.error:  # a Collada file
-            yield ["unknown", size, *pose, [], margin]
+            yield ["unknown", name, *pose, [], _MARGIN]
             continue
         other = bullet.createMultiBody(baseCollisionShapeIndex=shape)
         for k in range(len(bullet.getCollisionShapeData(other, -1))):
-            yield ["mesh", size, *pose, bullet.getMeshData(other, -1, collisionShapeIndex=k)[1], margin]
+            yield ["mesh", size, *pose, bullet.getMeshData(other, -1, collisionShapeIndex=k)[1], _MARGIN]
         bullet.removeBody(other)
 
 

@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from meshforge.engines import EngineShape, ShapeComparison
 from meshforge.formats import load
-from meshforge.geometry import Pose, convex_hull
+from meshforge.geometry import Box, Pose, convex_hull
 from meshforge.symbolic import SymbolicMesh
 from tests.cups import BOTTOM, WALLS, cup
+from tests.mesh_files import dae
 from tests.mjcf_engines import model, put
 from tests.shape_strategies import KINDS, shape
 from tests.unit.batch.preparation.samples import write_boxes
@@ -106,6 +107,20 @@ def test_pybullet_makes_one_hull_of_an_stl(run: Run, tmp_path: Path) -> None:
     assert told.code == 1 and "(3 pieces here)" in told.out and "meshforge convert FILE OUT.urdf" in told.out
 
 
+@pytest.mark.parametrize(("boxes", "code", "rule"), [(1, 0, "MF223"), (3, 1, "MF204")])
+def test_pybullet_makes_one_hull_of_a_collada_file_by_its_rule(
+    boxes: int, code: int, rule: str, run: Run, tmp_path: Path
+) -> None:
+    pytest.importorskip("pybullet")
+    solids = [Box(Pose.of_translation([3 * k, 0, 0]), np.ones(3)).tessellate() for k in range(boxes)]
+    corners = np.concatenate([one.vertices for one in solids])
+    faces = np.concatenate([one.faces + 8 * k for k, one in enumerate(solids)])
+    (tmp_path / "row.dae").write_bytes(dae((corners, faces)))
+    put(tmp_path, {"row.urdf": f'<robot name="r"><link name="a">{MESH.format("row.dae")}{BALL}</link></robot>'})
+    told = run("check", "row.urdf", "--engine", "bullet")
+    assert told.code == code and rule in told.out
+
+
 @pytest.mark.parametrize("objects", [1, 3])
 def test_pybullet_makes_a_hull_of_each_object_of_an_obj(objects: int, run: Run, tmp_path: Path) -> None:
     pytest.importorskip("pybullet")
@@ -136,6 +151,18 @@ def test_a_margin_that_closes_a_gap_is_an_error(margin: str, code: int, run: Run
     put(tmp_path, {"cup.xml": model(f'<body name="b">{box.format("l", 0)}{box.format("r", 0.205)}</body>')})
     told = run("check", "cup.xml", "--engine", "mujoco")
     assert told.code == code and ("closes gaps by the margins of hulls: b/l and b/r (5 mm)" in told.out) is bool(code)
+
+
+def test_the_margin_of_bullet_counts_where_a_link_has_several_meshes_too(run: Run, tmp_path: Path) -> None:
+    pytest.importorskip("pybullet")
+    for name, low in (("low", 0.0), ("high", 0.1015), ("far", 0.3)):
+        (tmp_path / f"{name}.obj").write_text(boxes_obj(((0, 0, low), (0.1, 0.1, low + 0.1))))
+    mesh = '<collision><geometry><mesh filename="{}.obj"/></geometry></collision>'
+    joint = '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/><limit lower="0" upper="1"/></joint>'
+    links = f'<link name="a">{mesh.format("low")}</link><link name="b">{mesh.format("high")}{mesh.format("far")}</link>'
+    put(tmp_path, {"row.urdf": f'<robot name="r">{links}{joint}</robot>'})
+    told = run("check", "row.urdf", "--engine", "bullet")
+    assert "closes gaps by the margins of hulls: a/collision and b/collision (1.5 mm)" in told.out
 
 
 def test_a_margin_that_bullet_has_by_itself_matters_between_bodies_only() -> None:
