@@ -1,5 +1,5 @@
-"""Whether MuJoCo and PyBullet collide where our hulls are, felt out with a small ball; and whether `meshforge check` says
-so where they do not."""
+"""Whether MuJoCo and PyBullet collide where our hulls are, as a small ball finds; and whether `meshforge check` says so
+where they do not."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             f"is read here, and nowhere else. Points nearer to a surface than {100 * _NEAR:g}% of the diagonal and the "
             "engine's margin do not count. The ball knows nothing of how `check` compares shapes.",
             "*Differs*: at one point or more. *Said*: an error of `meshforge check --engine`, or that a piece is not "
-            "convex. *Said, same*: an error, and the ball found no difference, as where a gap is narrower than it. What "
+            "convex. *Said, same*: an error, and the ball found no difference, as where a gap is narrow. What "
             "would make it fail: a scale, pose or file that an engine takes for another one; a hull of several pieces.",
         ),
         tuple(rows),
@@ -91,7 +91,7 @@ def try_asset(engine: str, asset: str) -> Row:
         return row | {"untried": f"not read here: {error.message}"}
     rng = np.random.default_rng(int.from_bytes(blake2b(asset.encode(), digest_size=8).digest()))
     corners = [hull.shape.tessellate().vertices for hull in mesh.hulls]
-    points = np.concatenate([one for one in _sample(corners, rng)])
+    points = np.concatenate(list(_sample(corners, rng)))
     depths, near = _measure_depths(corners, points), _NEAR * mesh.diagonal
     with TemporaryDirectory() as name:
         given, out = Path(name) / "points.json", Path(name) / "touched.json"

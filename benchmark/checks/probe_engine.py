@@ -1,5 +1,5 @@
-"""A program for a process of its own, since PyBullet may crash: loads a file in MuJoCo or PyBullet, puts a small ball at
-each of many points, and writes which of them touch, and the margin of contacts [m], as JSON."""
+"""A program for a process of its own, since PyBullet may crash: loads a file in MuJoCo or PyBullet, puts a small ball
+at each of many points, and writes which of them touch, and the margin of contacts [m], as JSON."""
 
 from __future__ import annotations
 

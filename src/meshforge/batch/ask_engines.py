@@ -124,9 +124,7 @@ def _describe_collada(asked: str, path: Path, mesh: SymbolicMesh, links: Collect
     such a file into one hull."""
     names = [hull.name for hull in mesh.hulls if hull.body in links and "#" in hull.name]
     if len(names) > len({name.rpartition("#")[0] for name in names}):
-        message = (
-            f"{asked} makes one hull of all of a Collada file, which closes what is between: {join_names(names, 5)}"
-        )
+        message = f"{asked} makes one hull of a Collada file, which closes what is between: {join_names(names, 5)}"
         remedy = f"Give each hull a file of its own: meshforge convert {quote_path(path)} OUT --one-file-a-hull"
         return Finding("bullet-joins", "error", tuple(names), message, remedy)
     message = f"{asked} does not say what it makes of Collada files: the shapes are not compared"

@@ -162,7 +162,7 @@ def test_the_margin_of_bullet_counts_where_a_link_has_several_meshes_too(run: Ru
     links = f'<link name="a">{mesh.format("low")}</link><link name="b">{mesh.format("high")}{mesh.format("far")}</link>'
     put(tmp_path, {"row.urdf": f'<robot name="r">{links}{joint}</robot>'})
     told = run("check", "row.urdf", "--engine", "bullet")
-    assert "closes gaps by the margins of hulls: a/collision and b/collision (1.5 mm)" in told.out
+    assert "closes gaps by the margins of hulls: a/geom0 and b/geom0 (1.5 mm)" in told.out
 
 
 def test_a_margin_that_bullet_has_by_itself_matters_between_bodies_only() -> None:
