@@ -9,7 +9,7 @@ import typer
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import print_json
-from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
+from meshforge.common import UsageError, escape_name, is_text, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project, list_renamed_files
 from meshforge.store import History
@@ -52,8 +52,9 @@ def rename_labels(project: Project, texts: Sequence[str]) -> None:
     wrong; those before it are done."""
     for text in texts:
         old, sign, new = (part.strip() for part in text.partition("="))
-        if not (sign and old and new):
-            raise UsageError(f"--rename {text}: it needs a label and its new name", remedy="Write it so: part_a=leg.")
+        if not (sign and old and new and is_text(text)):
+            problem = f"--rename {text}: it needs a label and its new name, in UTF-8"
+            raise UsageError(problem, remedy="Write it so: part_a=leg.")
         title, edit = f"{old} renamed {new}", {"kind": "rename-label", "old": old, "new": new}
         with History(project.folder).record(title, edit, list_renamed_files(project)):
             project.rename_label(old, new)

@@ -67,6 +67,7 @@ def test_a_class_is_corrected_by_hand_as_a_label_is(learned: Run) -> None:
         (["no part=rest"], "there is no label 'no part'"),
         (["part_a=part_c"], "'part_c' is a name that MeshForge gives to hulls that steps take"),
         (["part_a="], "--rename part_a=: it needs a label and its new name"),
+        (["part_a=\udcff"], "--rename part_a=\\xff: it needs a label and its new name, in UTF-8"),
     ],
 )
 def test_a_name_that_cannot_be_given_is_one_error_and_changes_nothing(
