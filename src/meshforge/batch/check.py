@@ -28,6 +28,7 @@ class CheckTask:
     out: the folder for fixed assets, None where nothing is to be fixed; tolerance: how far a fixed hull may stick out
     [m], None for the default of `fix`; max_vertices: the most vertices that a fixed hull may have.
     against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
+    exclude: pairs of bodies that are not to touch, `BODY:BODY` or `all` that are proposed.
     digests_from: the folder from which the paths in digests of files count, None where no digests are wanted.
     """
 
@@ -39,6 +40,7 @@ class CheckTask:
     against: Path | None = None
     pictures: Path | None = None
     digests_from: Path | None = None
+    exclude: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -106,7 +108,7 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
         mesh = load(path, labels=labels)
         before = _load_before(path, base, task.against)
         if task.out:
-            fixed = fix(mesh, engine, task.tolerance, task.max_vertices)
+            fixed = fix(mesh, engine, task.tolerance, task.max_vertices, task.exclude)
             before, mesh = before or (mesh if fixed.changes else None), fixed.mesh
             written = write_fixed(mesh, base, task.out, overwrite=task.overwrite)
         found = examine_file(written or path, mesh, task.measures, before)

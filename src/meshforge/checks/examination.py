@@ -13,6 +13,7 @@ from meshforge.checks.base import VALIDATORS, Check, CheckFindings, CheckSubject
 from meshforge.checks.clearance import ClearanceCheck
 from meshforge.checks.fit import FitCheck
 from meshforge.checks.legality import check_legality
+from meshforge.checks.physics.pairs import PairsCheck
 from meshforge.checks.physics.simulation import PhysicsCheck
 from meshforge.checks.physics.speed import SpeedCheck
 from meshforge.common import Plugin, PluginError, Registry, UsageError, blame, suggest_among
@@ -168,7 +169,7 @@ def draw_examination(
         yield from one.draw(mesh, key.replace("_", "-"), size, unit)
 
 
-MEASURES: tuple[type[Check], ...] = (FitCheck, ClearanceCheck, PhysicsCheck)
+MEASURES: tuple[type[Check], ...] = (FitCheck, ClearanceCheck, PhysicsCheck, PairsCheck)
 """The checks of what can be measured, besides engines and speed."""
 
 

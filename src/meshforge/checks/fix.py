@@ -8,6 +8,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.checks.legality import check_legality
+from meshforge.checks.physics.pairs import exclude_pairs
 from meshforge.engines import Engine, Limit, make_limit
 from meshforge.symbolic import Hull, SymbolicMesh
 
@@ -42,13 +43,14 @@ class HullFix:
 class FixResult:
     """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left.
 
-    parted: collision meshes of several pieces, each of which is written to a file of its own.
+    parted: collision meshes of several pieces, each of which is written to a file of its own; excluded: pairs of bodies.
     """
 
     mesh: SymbolicMesh
     changes: tuple[HullFix, ...]
     left: tuple[str, ...]
     parted: tuple[str, ...] = ()
+    excluded: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return the changes as JSON-able data; lengths in metres."""
@@ -62,11 +64,17 @@ class FixResult:
             }
             for change in self.changes
         ]
-        return {"changes": rows, "left": list(self.left), "parted": list(self.parted)}
+        return {"changes": rows, "left": list(self.left), "parted": list(self.parted)} | {
+            "excluded": list(self.excluded)
+        }
 
 
 def fix(
-    mesh: SymbolicMesh, engine: Engine | None, tolerance: float | None = None, max_vertices: int | None = None
+    mesh: SymbolicMesh,
+    engine: Engine | None,
+    tolerance: float | None = None,
+    max_vertices: int | None = None,
+    exclude: Sequence[str] = (),
 ) -> FixResult:
     """Return the mesh with fewer vertices where a hull has too many, and more thickness where it has too little, for an
     engine or a number of vertices.
@@ -75,6 +83,7 @@ def fix(
     left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of the mesh's diagonal
     (without an end where `max_vertices` is given), or would come to overlap a hull of another body. In a URDF or SDF
     for MuJoCo or Bullet, which make one hull of a mesh file, each hull goes into a file of its own.
+    exclude: pairs of bodies that are not to touch, see `exclude_pairs`.
     """
     allowed = tolerance if tolerance is not None else np.inf if max_vertices else TOLERANCE * mesh.diagonal
     asked = [make_limit("vertices", max_vertices, "error", "", "")] if max_vertices else []
@@ -102,7 +111,8 @@ def fix(
     parted = _find_several(mesh) if engine is not None and engine.name in ("mujoco", "bullet") else ()
     if parted and ready.asset:
         ready = replace(ready, asset=replace(ready.asset, one_file_a_hull=True))
-    return FixResult(ready, tuple(changes), tuple(left), parted)
+    ready, excluded = exclude_pairs(ready, exclude)
+    return FixResult(ready, tuple(changes), tuple(left), parted, excluded)
 
 
 def _find_several(mesh: SymbolicMesh) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from meshforge.formats.conversion import ConversionReport, report_conversion, tu
 from meshforge.formats.engine_names import MarkName
 from meshforge.formats.registry import SUFFIXES, folder_format, format_for, format_named, format_with_names, load_format
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, SymbolicMesh
 
 _MESHES = (".dae", ".msh", ".off", ".skn", ".usd", ".usda", ".usdc", ".usdz", ".bin", ".mtl", ".hf")
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tga", ".tif", ".tiff", ".dds", ".webp", ".hdr", ".exr", ".ktx2")
@@ -141,6 +141,9 @@ def _make_output(
     place: where the hulls of an unmarked scene go.
     """
     source, notes = format_named(asset.format), list[str]()
+    if asset.mechanism.added and FeatureKind.PAIRS not in known.holds:
+        problem, remedy = f"{known.title} has no pairs of bodies that do not touch", "Write MJCF, URDF or USD."
+        raise AssetError(problem, where=str(asset.path), remedy=remedy)
     if place == "beside" and isinstance(known, SceneFormat):
         notes.append(f"nothing was marked as collision: what is seen stays, and the hulls are beside it {known.marks}")
     elif place and isinstance(known, SceneFormat) and known.name == asset.format and known.is_edited(asset):

@@ -167,13 +167,14 @@ class Mechanism:
     """The joints of an asset, which make its bodies one or more trees, and the masses that the file has.
 
     apart: pairs of bodies that the file keeps from colliding; paired: pairs of geoms that it has collide all the same,
-    whatever their bodies and contact attributes.
+    whatever their bodies and contact attributes. added: those apart that the file does not say yet.
     """
 
     joints: tuple[Joint, ...] = ()
     inertials: tuple[Inertial, ...] = field(default=())
     apart: tuple[tuple[str, str], ...] = ()
     paired: tuple[tuple[str, str], ...] = ()
+    added: tuple[tuple[str, str], ...] = ()
 
     def move(self, pose: Pose) -> Self:
         """Return the mechanism in another root frame; pose: new_T_old."""

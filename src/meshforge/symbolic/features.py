@@ -30,6 +30,7 @@ class FeatureKind(Enum):
     FIXED_JOINTS = "name of a fixed joint", "names of fixed joints"
     SPEEDS = "speed limit", "speed limits"
     MIMICS = "coupling", "couplings"
+    PAIRS = "excluded pair", "excluded pairs"
     MASSES = "mass", "masses"
     VISUALS = "visual", "visuals"
     COLORS = "colour", "colours"
@@ -103,4 +104,5 @@ def _features_of_mechanism(asset: Asset) -> Iterator[Feature]:
     yield Feature(FeatureKind.FIXED_JOINTS, tuple(fixed))
     yield Feature.of(FeatureKind.SPEEDS, (joint.name for joint in moving if joint.velocity is not None))
     yield Feature.of(FeatureKind.MIMICS, (joint.name for joint in joints if joint.coupling))
+    yield Feature(FeatureKind.PAIRS, tuple(":".join(pair) for pair in asset.mechanism.apart))
     yield Feature(FeatureKind.MASSES, tuple(inertial.body for inertial in asset.mechanism.inertials))

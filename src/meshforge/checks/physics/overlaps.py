@@ -9,7 +9,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.model import FLOOR, compile_model, pose_on_floor
-from meshforge.checks.physics.scene import Place, mm
+from meshforge.checks.physics.scene import Motion, Place, Touch, mm
 from meshforge.common import join_names
 from meshforge.engines import Finding, Severity
 from meshforge.symbolic import Hull, Joint, SymbolicMesh, contact_graph
@@ -49,11 +49,11 @@ class BodyOverlap:
     share: float = 0.0
 
 
-def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap, ...]:
+def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree, *, near_axes: bool = False) -> tuple[BodyOverlap, ...]:
     """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
 
     Contacts that the file excludes count for themselves. Around the axis of a hinge, or the centre of a ball, those of
-    the two bodies that it joins do not count. Raises ValueError where MuJoCo refuses the model.
+    the two bodies that it joins count with `near_axes` only. Raises ValueError where MuJoCo refuses the model.
     """
     import mujoco  # lazy: 0.3 s, only the physics checks need it
 
@@ -78,7 +78,7 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
         if pair not in between:
             between[pair] = _find_joints_between(mesh, tree, rigid, *pair)
         joints, at = between[pair], back.apply(np.array(contact.pos)[None])
-        if not any(joint.measure_distance(at) <= near for joint, near in joints):
+        if near_axes or not any(joint.measure_distance(at) <= near for joint, near in joints):
             found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), bool(joints), excluded)
     least = DEEP * mesh.diagonal
     measured = (
@@ -97,13 +97,15 @@ def _find_joints_between(
         if child in tree.above and rigid[tree.above[child]] == parent:
             below = set(tree.list_below(child))
             hulls = [hull for hull in mesh.hulls if hull.body in below]
-            return [
-                (joint, NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in hulls))
-                if joint.kind in ("revolute", "ball")
-                else (joint, -1.0)
-                for joint in tree.joints[child]
-            ]
+            return [(joint, measure_near(joint, hulls)) for joint in tree.joints[child]]
     return []
+
+
+def measure_near(joint: Joint, moving: Sequence[Hull]) -> float:
+    """Return the distance from the axis of a joint within which what it turns may be in its neighbour [m]; below 0 for one
+    that slides."""
+    turns = joint.kind in ("revolute", "ball")
+    return NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in moving) if turns else -1.0
 
 
 def _measure_share(mesh: SymbolicMesh, overlap: BodyOverlap) -> float:
@@ -192,14 +194,11 @@ def check_joints(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[
     if empty := [f"{name} ({both[0]:g} to {both[1]:g})" for name, both in ends.items() if both and both[0] >= both[1]]:
         message = f"joints whose limits leave them no way to go, which engines take for none: {join_names(empty, 5)}"
         yield Finding("physics-limits", "error", (), message, "Write the lower limit first; or make the joint fixed.")
-    rules, hulls = ContactRules(mesh), mesh.hulls
-    pairs = ((i, j) for i in range(len(hulls)) for j in range(i) if hulls[i].body != hulls[j].body)
-    apart = {frozenset((hulls[i].name, hulls[j].name)) for i, j in pairs if not rules.may_touch(i, j)}
     found: dict[Severity, list[tuple[str, list[str]]]] = {"error": [], "warning": []}
-    for joint in (joint for own in tree.joints.values() for joint in own):
-        if explain_untried(joint) is None and joint.limits is not None and joint.limits[0] < joint.limits[1]:
-            for severity, text, pair in _find_blocks(mesh, tree, joint, least, apart):
-                found[severity].append((f"{joint.name or joint.child} ({text})", pair))
+    for sweep in list_sweeps(mesh, tree, least):
+        if block := _find_block(sweep, tree):
+            severity, text, pair = block
+            found[severity].append((f"{sweep.joint.name or sweep.joint.child} ({text})", pair))
     for severity, blocks in found.items():
         if blocks:
             texts, verb = join_names([text for text, _ in blocks], 3), "do" if severity == "error" else "may"
@@ -209,32 +208,72 @@ def check_joints(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[
             )
 
 
-def _find_blocks(
-    mesh: SymbolicMesh, tree: JointTree, joint: Joint, least: float, apart: set[frozenset[str]]
-) -> Iterator[tuple[Severity, str, list[str]]]:
-    """The first thing in the way of a joint to either side: an error where no other joint moves one of the two out of
-    the way, and it stops well before the limit."""
-    from meshforge.checks.physics.motion import describe_place, watch_joint  # lazy: MuJoCo takes 0.3 s
+@dataclass(frozen=True, eq=False, slots=True)
+class JointSweep:
+    """A joint on its way from rest to one of its limits, the others at rest; moving, still: hulls.
 
-    below, rigid = set(tree.list_below(joint.child)), tree.rigid_roots()
-    moving = [hull for hull in mesh.hulls if hull.body in below]
-    rest = [hull for hull in mesh.hulls if hull.body not in below]
-    if not moving or not rest:
-        return
-    place, motion = place_joint(joint, np.eye(3))
-    start = float(np.clip(0.0, *place.size[:2]))
-    near = NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in moving) if motion == "hinge" else -1.0
-    groups = {hull.name: rigid[hull.body] for hull in mesh.hulls}
-    for end in (float(end) for end in place.size[:2] if end != start):
-        way, known = Place(place.at, np.array([start, end, 0.0]), place.axes), apart
-        for at, touches in watch_joint(moving, rest, way, least, motion):
-            seen = [touch for touch in touches if touch.pair not in known]
-            known = known | {touch.pair for touch in seen} if at == start else known
-            far = (one for one in seen if one.pair not in known and joint.measure_distance(one.at[None]) > near)
-            if touch := next(far, None):
-                names = [name.rpartition(" (")[0] for name in (touch.mover, touch.other)]
-                alone = [groups[name] for name in names] == [rigid[joint.child], rigid[joint.parent]]
-                early = abs(at - start) < NEARLY * abs(end - start)
-                text = f"{describe_place(at, motion)} {names[0]} is {mm(touch.depth)} in {names[1]}"
-                yield "error" if alone and early else "warning", text, names
-                break
+    start, end: of the way, in degrees of a hinge, metres of a slide; looks: what is in each other where on it, but for
+    hulls that the file keeps apart.
+    """
+
+    joint: Joint
+    motion: Motion
+    start: float
+    end: float
+    moving: tuple[Hull, ...]
+    still: tuple[Hull, ...]
+    looks: Iterator[tuple[float, list[Touch]]]
+
+
+def list_sweeps(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[JointSweep]:
+    """Yield each joint that has limits and follows no other one, to either side; least: how deep hulls are in each
+    other [m]."""
+    rules, hulls = ContactRules(mesh), mesh.hulls
+    pairs = ((i, j) for i in range(len(hulls)) for j in range(i) if hulls[i].body != hulls[j].body)
+    apart = {frozenset((hulls[i].name, hulls[j].name)) for i, j in pairs if not rules.may_touch(i, j)}
+    for joint in (joint for own in tree.joints.values() for joint in own):
+        below = set(tree.list_below(joint.child))
+        moving = tuple(hull for hull in hulls if hull.body in below)
+        still = tuple(hull for hull in hulls if hull.body not in below)
+        limits = joint.limits or (0.0, 0.0)
+        if explain_untried(joint) is None and limits[0] < limits[1] and moving and still:
+            place, motion = place_joint(joint, np.eye(3))
+            start = float(np.clip(0.0, *place.size[:2]))
+            for end in (float(end) for end in place.size[:2] if end != start):
+                way = Place(place.at, np.array([start, end, 0.0]), place.axes)
+                looks = _watch(moving, still, way, least, motion, apart)
+                yield JointSweep(joint, motion, start, end, moving, still, looks)
+
+
+def _watch(
+    moving: Sequence[Hull],
+    still: Sequence[Hull],
+    way: Place,
+    least: float,
+    motion: Motion,
+    apart: set[frozenset[str]],
+) -> Iterator[tuple[float, list[Touch]]]:
+    from meshforge.checks.physics.motion import watch_joint  # lazy: MuJoCo takes 0.3 s
+
+    for at, touches in watch_joint(moving, still, way, least, motion):
+        yield at, [touch for touch in touches if touch.pair not in apart]
+
+
+def _find_block(sweep: JointSweep, tree: JointTree) -> tuple[Severity, str, list[str]] | None:
+    """The first thing in the way of a joint: an error where no other joint moves one of the two out of the way, and it
+    stops well before the limit. What is in each other at the start does not count, nor what is around an axis."""
+    from meshforge.checks.physics.motion import describe_place  # lazy: as above
+
+    joint, known, near = sweep.joint, set[frozenset[str]](), measure_near(sweep.joint, sweep.moving)
+    for at, touches in sweep.looks:
+        known |= {touch.pair for touch in touches} if at == sweep.start else set()
+        far = (one for one in touches if one.pair not in known and joint.measure_distance(one.at[None]) > near)
+        if touch := next(far, None):
+            names = [name.rpartition(" (")[0] for name in (touch.mover, touch.other)]
+            groups = {hull.name: hull.body for hull in (*sweep.moving, *sweep.still)}
+            rigid = tree.rigid_roots()
+            alone = [rigid[groups[name]] for name in names] == [rigid[joint.child], rigid[joint.parent]]
+            early = abs(at - sweep.start) < NEARLY * abs(sweep.end - sweep.start)
+            text = f"{describe_place(at, sweep.motion)} {names[0]} is {mm(touch.depth)} in {names[1]}"
+            return "error" if alone and early else "warning", text, names
+    return None

@@ -60,7 +60,7 @@ class MjcfCreator:
         defaults = _DEFAULTS if self.geoms.shown else []
         meshes = [b"    " + element for element in self.geoms.meshes]
         assets = [b"  <asset>", *meshes, b"  </asset>"] if meshes else []
-        main = b"\n".join([*head, *defaults, *assets, *body, *self._equality_lines(), b"</mujoco>", b""])
+        main = b"\n".join([*head, *defaults, *assets, *body, *self._equality_lines(), *self._contact_lines(), b"</mujoco>", b""])
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
         lost = (*visuals.unreadable_visuals(self.geoms.visuals.refused), *self.lost, *self.couplings.lost)
@@ -99,6 +99,12 @@ class MjcfCreator:
             numbers = xml.format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
             yield b"    " + xml.tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
         yield b"  </equality>"
+
+    def _contact_lines(self) -> Iterator[bytes]:
+        if pairs := self.asset.mechanism.apart:
+            yield b"  <contact>"
+            yield from (b"    " + elements.exclude_tag(self.bodies[one], self.bodies[other]) for one, other in pairs)
+            yield b"  </contact>"
 
     def _place_of(self, body: str) -> str:
         parent = self.tree.parent(body)

@@ -1,7 +1,8 @@
 """Writing an edited MJCF: other geoms, all else byte for byte as it was, compiled again before it is given out."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -31,7 +32,8 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
     if not collision_pieces.is_edited(asset, document.names):
-        return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
+        texts = _add_excludes(asset, tree, [source.raw for source in tree.sources])
+        return _build_output(tree, texts, {}, copies, notes, {})
     try:
         before = compile_tree(tree, compiler.drop_scaling)
     except AssetError:
@@ -43,7 +45,40 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     if edit.masses.bodies and edit.masses.are_ignored:
         bodies = join_names([before.body_names[k] for k in edit.masses.bodies], 3)
         notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
+    texts = _add_excludes(asset, tree, texts, edit.maker.files.made)
     return _build_output(tree, texts, edit.maker.files.made, copies, notes, edit.geoms.names)
+
+
+def _add_excludes(
+    asset: Asset, tree: MjcfTree, texts: list[bytes], made: Mapping[str, bytes] = MappingProxyType({})
+) -> list[bytes]:
+    """The texts with the pairs of bodies that are not to touch in the main one. Raises AssetError where MuJoCo refuses
+    them, as of a body that has no name in the file."""
+    if not (pairs := asset.mechanism.added):
+        return texts
+    text = xml.XmlText.of(texts[0])
+    root, lines = xml.parse_xml(text.data, str(asset.path)), [elements.exclude_tag(*pair) for pair in pairs]
+    splice = _append_to(text.data, root, [*root.each("contact")], "contact", lines)
+    after = [text.encode(xml.apply_splices(text.data, [splice])), *texts[1:]]
+    files = dict(zip((source.path for source in tree.sources), after, strict=True))
+    try:
+        compile_tree(read_tree(asset.path, files | {asset.path.parent / name: data for name, data in made.items()}))
+    except AssetError as error:
+        problem, remedy = f"with the excluded pairs: {error.problem}", "Give both bodies names in the file."
+        raise AssetError(problem, where=str(asset.path), remedy=remedy) from None
+    return after
+
+
+def _append_to(
+    data: bytes, root: xml.Element, parents: Sequence[xml.Element], tag: str, texts: Sequence[bytes]
+) -> xml.Splice:
+    """What adds elements to the last of some parents; to a new one of a tag below the root where there is none."""
+    parent = next(iter(parents[-1:]), root)
+    if parent is root:
+        lead = element_edits.child_indent_of(data, root)
+        lines = [f"<{tag}>".encode(), *(2 * lead + text for text in texts), lead + f"</{tag}>".encode()]
+        texts = [xml.newline_of(data).join(lines)]
+    return element_edits.append_elements(data, parent, [element_edits.OutputElement("", (), text=t) for t in texts])
 
 
 def _strip(tree: MjcfTree) -> MjcfModel:
@@ -132,13 +167,7 @@ class MjcfEdit:
         if not self.maker.elements:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
-        parent, texts = next(iter([*root.each("asset")][-1:]), root), self.maker.elements
-        if parent is root:
-            lead = element_edits.child_indent_of(data, root)
-            lines = [b"<asset>", *(2 * lead + text for text in texts), lead + b"</asset>"]
-            texts = [xml.newline_of(data).join(lines)]
-        outputs = [element_edits.OutputElement("", (), text=text) for text in texts]
-        yield 0, element_edits.append_elements(data, parent, outputs)
+        yield 0, _append_to(data, root, [*root.each("asset")], "asset", self.maker.elements)
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""

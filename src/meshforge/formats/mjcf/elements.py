@@ -22,6 +22,11 @@ _LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
 _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
 
 
+def exclude_tag(first: str, second: str) -> bytes:
+    """Return the element that keeps two bodies from contact."""
+    return tag("exclude", {"body1": first, "body2": second})
+
+
 def geom_attributes(shape: MjcfShape) -> dict[str, str]:
     """Return type, size and pose of a native shape, in the frame in which the shape is."""
     match shape:

@@ -15,9 +15,9 @@ from meshforge.symbolic import Asset, Feature, FeatureKind
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
 """An XML text up to the tag of its first element."""
 
-_TAKEN = ("worldbody", "asset", "body", "frame", "replicate")
+_TAKEN = ("worldbody", "asset", "body", "frame", "replicate", "contact")
 _LEAVES = (
-    *("compiler", "default", "geom", "joint", "freejoint", "inertial", "mesh", "model", "attach", "include"),
+    *("compiler", "default", "geom", "joint", "freejoint", "inertial", "mesh", "model", "attach", "include", "exclude"),
     "equality",  # of which couplings of joints are taken, see below
 )
 _CONTACT = ("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin", "gap", "priority")
@@ -34,7 +34,7 @@ class MjcfFormat(base.Format):
     up = "z"
     holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.NON_CONVEX),
-        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS, FeatureKind.PAIRS),
     }
 
     def matches_head(self, head: bytes) -> bool:
