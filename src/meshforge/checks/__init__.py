@@ -11,6 +11,7 @@ __getattr__, __all__ = export_lazily(
         "examination": "CHECKS MEASURES CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
         "goals.base": "Goal GoalSubject NotApplicableError",
+        "physics.pairs": "PairProposals exclude_pairs",
         "physics.scene": "Failure",
         "physics.simulation": "BEFORE Physics",
         "physics.speed": "Speed",

@@ -21,6 +21,8 @@ from meshforge.checks.fit import MeshFit as MeshFit
 from meshforge.checks.goals.base import Goal as Goal
 from meshforge.checks.goals.base import GoalSubject as GoalSubject
 from meshforge.checks.goals.base import NotApplicableError as NotApplicableError
+from meshforge.checks.physics.pairs import PairProposals as PairProposals
+from meshforge.checks.physics.pairs import exclude_pairs as exclude_pairs
 from meshforge.checks.physics.scene import Failure as Failure
 from meshforge.checks.physics.simulation import BEFORE as BEFORE
 from meshforge.checks.physics.simulation import Physics as Physics

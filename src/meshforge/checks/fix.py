@@ -43,7 +43,8 @@ class HullFix:
 class FixResult:
     """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left.
 
-    parted: collision meshes of several pieces, each of which is written to a file of its own; excluded: pairs of bodies.
+    parted: collision meshes of several pieces, each of which is written to a file of its own; excluded: pairs of bodies
+    that do not touch any more.
     """
 
     mesh: SymbolicMesh

@@ -37,6 +37,9 @@ class CheckArguments:
         bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
     ] = False
     physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False
+    pairs: Annotated[
+        bool, typer.Option("--pairs", help="Propose pairs of bodies to exclude from contact: see --exclude.")
+    ] = False
     second_opinion: Annotated[
         Validator | None,
         typer.Option(
@@ -58,7 +61,8 @@ class CheckArguments:
         ),
     ] = None
     pictures: Annotated[
-        Path | None, typer.Option("--pictures", help="Folder for heat maps and pictures of what is closed.")
+        Path | None,
+        typer.Option("--pictures", help="Folder for heat maps, and pictures of what is closed and of pairs."),
     ] = None
     fix: Annotated[
         bool,
@@ -75,6 +79,7 @@ class CheckArguments:
         ),
     ] = None
     max_vertices: options.MaxVertices = None
+    exclude: options.ExcludedPairs = None
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 also where there are warnings.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
     sarif: options.SarifPath = None
@@ -90,7 +95,7 @@ class CheckArguments:
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when something is wrong or cannot be
+    --fit, --clearance, --physics and --pairs measure more, in seconds an asset. Exit code 1 when something is wrong or cannot be
     read, with --strict also when it is doubtful, with --baseline only where that is not in the file; 2 when the command
     makes no sense. meshforge explain CODE says what a finding means.
     """
@@ -100,7 +105,14 @@ def check(given: CheckArguments) -> None:
     _refuse_stray_options(given, measures)
     known = batch.Baseline.read(given.baseline, new=given.update_baseline) if given.baseline else None
     task = batch.CheckTask(
-        measures, given.out, given.tolerance, given.max_vertices, given.overwrite, given.against, given.pictures
+        measures,
+        given.out,
+        given.tolerance,
+        given.max_vertices,
+        given.overwrite,
+        given.against,
+        given.pictures,
+        exclude=tuple(given.exclude or ()),
     )
     if known:
         task = replace(task, digests_from=known.folder)
@@ -148,17 +160,19 @@ def check(given: CheckArguments) -> None:
 
 
 def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None:
-    if given.fix and not ((measures.engine or given.max_vertices) and given.out):
+    if given.fix and not ((measures.engine or given.max_vertices or given.exclude) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
-        raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
+        raise UsageError("--fix needs --engine, --max-vertices or --exclude, and --out", remedy=remedy)
     if not given.baseline:
         options.refuse_options(given.context, ("update_baseline",), "--baseline")
     if given.fix:
         options.refuse_with(given.context, ("baseline",), "--fix")
     else:
-        options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices"), "--fix")
+        options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices", "exclude"), "--fix")
     if not any(check.has_cells for check in measures.checks):
-        options.refuse_options(given.context, ("cell", "pictures"), "--fit or --clearance")
+        options.refuse_options(
+            given.context, ("cell",) if given.pairs else ("cell", "pictures"), "--fit or --clearance"
+        )
     if not any(check.compares for check in measures.checks):
         options.refuse_options(given.context, ("against",), "--clearance or --physics")
 
@@ -199,6 +213,7 @@ def _describe_changes(outcome: batch.CheckOutcome) -> tuple[str, ...]:
     return (
         *(f"fixed: {change.description}" for change in fixed.changes),
         *(f"fixed: {escape_name(element)}: each of its hulls is in a file of its own" for element in fixed.parted),
+        *(f"fixed: {escape_name(pair)} do not touch any more" for pair in fixed.excluded),
         *fixed.left,
         f"wrote {escape_name(str(outcome.output))}",
     )

@@ -48,6 +48,7 @@ class ConvertArguments:
             help="URDF and SDF: each hull of a mesh in a file and an element of its own, for MuJoCo and Bullet.",
         ),
     ] = False
+    exclude: options.ExcludedPairs = None
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -77,6 +78,9 @@ def convert(given: ConvertArguments) -> None:
         return
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
+    if given.exclude:
+        remedy = "For many, in their own formats: meshforge check ASSETS... --fix --exclude all --out DIR."
+        raise UsageError("--exclude is for one asset", remedy=remedy)
     suffix = _parse_suffix(given.to)
     _convert_many(sources, Path(out), given, suffix)
 
@@ -137,6 +141,12 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
         with progress(None, f"hulls for {source.name}"):
             ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
         mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
+    if given.exclude:
+        from meshforge.checks import exclude_pairs  # lazy: as above
+
+        mesh, excluded = exclude_pairs(mesh, given.exclude)
+        for pair in excluded:
+            remark(f"{escape_name(pair)} do not touch any more")
     with progress(None, f"writing {out.name}"):
         saved = formats.convert(
             mesh,

@@ -194,6 +194,15 @@ MaxVertices = Annotated[
     int | None,
     typer.Option("--max-vertices", min=8, help="The most vertices that a hull may have.", show_default=False),
 ]
+ExcludedPairs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--exclude",
+        metavar="PAIR",
+        help="Two bodies that do not touch in what is written, BODY:BODY, or all that check --pairs proposes without a "
+        "doubt. May be repeated.",
+    ),
+]
 
 
 class EngineMethod(StrEnum):

@@ -102,8 +102,8 @@ def _find_joints_between(
 
 
 def measure_near(joint: Joint, moving: Sequence[Hull]) -> float:
-    """Return the distance from the axis of a joint within which what it turns may be in its neighbour [m]; below 0 for one
-    that slides."""
+    """Return the distance from the axis of a joint within which what it turns may be in its neighbour [m]; below 0 for
+    one that slides."""
     turns = joint.kind in ("revolute", "ball")
     return NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in moving) if turns else -1.0
 

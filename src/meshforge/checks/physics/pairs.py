@@ -123,8 +123,9 @@ def _list_swept(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[P
                 own, other = (bodies[name] for name in hulls)
                 alone = {rigid[own], rigid[other]} == {rigid[joint.child], rigid[joint.parent]}
                 early = abs(at - sweep.start) < NEARLY * abs(sweep.end - sweep.start)
-                stops = alone and early and joint.measure_distance(touch.at[None]) > near
+                stops = early and joint.measure_distance(touch.at[None]) > near
                 fault = f"it stops {joint.name or joint.child} on its way" if stops else ""
+                fault = fault if alone else "they are no neighbours, so that the contact may be meant"
                 yield PairProposal((own, other), (hulls[0], hulls[1]), touch.depth, where, fault)
 
 

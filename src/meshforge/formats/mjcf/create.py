@@ -60,7 +60,9 @@ class MjcfCreator:
         defaults = _DEFAULTS if self.geoms.shown else []
         meshes = [b"    " + element for element in self.geoms.meshes]
         assets = [b"  <asset>", *meshes, b"  </asset>"] if meshes else []
-        main = b"\n".join([*head, *defaults, *assets, *body, *self._equality_lines(), *self._contact_lines(), b"</mujoco>", b""])
+        main = b"\n".join(
+            [*head, *defaults, *assets, *body, *self._equality_lines(), *self._contact_lines(), b"</mujoco>", b""]
+        )
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
         lost = (*visuals.unreadable_visuals(self.geoms.visuals.refused), *self.lost, *self.couplings.lost)

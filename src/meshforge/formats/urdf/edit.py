@@ -10,6 +10,7 @@ from meshforge.formats import base, collision_pieces, element_edits, kinematic_t
 from meshforge.formats.conversion import note_hulled
 from meshforge.formats.link_output import LinkCreator
 from meshforge.formats.references import collect_copies, placement, reference_of
+from meshforge.formats.urdf import srdf
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, collisions, parse_robot, references
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, FeatureKind, Inertial, Rgba, Surface
@@ -86,7 +87,12 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: boo
     main = document.source if data == text.data else text.encode(data)
     texts = references(parse_robot(data, str(asset.path)))
     copies, far = collect_copies(((text, placement(text), document.resolver.find(text)) for text in texts), _REMEDY)
-    return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
+    made, pairs, beside = dict(files.made), asset.mechanism.added, srdf.srdf_beside(asset.path)
+    if pairs:
+        made[files.stem + srdf.SUFFIX] = srdf.write_pairs(pairs, robot.attributes.get("name", files.stem), beside)
+    elif beside:
+        copies[files.stem + srdf.SUFFIX] = beside
+    return base.Output(main, made, copies, (*maker.notes, *far), names)
 
 
 @dataclass(eq=False)
@@ -158,8 +164,11 @@ class _Creator(LinkCreator):
         for joint in self.chain.joints:
             inside += joint_lines(joint, self.couplings.by_joint.get(joint.name))
         main = b"\n".join([b'<?xml version="1.0"?>', *xml.nest("robot", *inside, name=files.stem), b""])
-        lost = self.collect_losses()
-        return base.Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
+        lost, made = self.collect_losses(), dict(files.made)
+        pairs = [pair for pair in self.asset.mechanism.apart if self.links.keys() >= {*pair}]
+        if pairs:
+            made[files.stem + srdf.SUFFIX] = srdf.write_pairs(pairs, files.stem)
+        return base.Output(main, made, self.visuals.copies, self._collect_notes(), names, lost)
 
     def refuse_surface(self, surface: Surface) -> str:
         is_flat = not len(surface.faces) or collision_pieces.is_flat(surface.vertices)

@@ -33,7 +33,8 @@ class UrdfFormat(base.Format):
     title = "URDF"
     up = "z"
     holds = base.BODY_FEATURES | {
-        *(FeatureKind.NON_CONVEX, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS)
+        *(FeatureKind.NON_CONVEX, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS),
+        FeatureKind.PAIRS,
     }
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         FeatureKind.CAPSULES: "written as triangles",

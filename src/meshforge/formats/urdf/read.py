@@ -1,6 +1,7 @@
 """Read a URDF: from its text to an asset, with what its links show, other names of its collisions, and notes."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from meshforge.common import AssetError, join_names, plain_path, pluralize
 from meshforge.formats import base, link_reader, mesh_reader
 from meshforge.formats.references import Resolver, find_all
-from meshforge.formats.urdf import document
+from meshforge.formats.urdf import document, srdf
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.xml import Element, XmlText
 from meshforge.geometry import Floats, Pose
@@ -31,6 +32,8 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
     reader = _UrdfReader(robot, where)
     collisions = reader.read_collisions(links)
     files, missing = find_all(document.references(robot), resolver)
+    beside = srdf.srdf_beside(path)
+    apart = tuple(pair for pair in srdf.read_pairs(beside) if placed.poses.keys() >= {*pair}) if beside else ()
     return Asset(
         path=path,
         format="urdf",
@@ -39,10 +42,10 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
         document=document.UrdfDocument(source, collisions.authored, resolver, collisions.digests),
         non_convex=collisions.non_convex,
         visuals=reader.read_visuals(links),
-        files=files,
+        files=(*files, beside) if beside else files,
         missing=missing,
         notes=tuple(_collect_notes(robot, placed, [(link.body, element) for link, element in collisions.found])),
-        mechanism=read_mechanism(robot, placed),
+        mechanism=replace(read_mechanism(robot, placed), apart=apart),
     )
 
 

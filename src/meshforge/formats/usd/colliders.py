@@ -18,6 +18,8 @@ LABELS_SCHEMA, LABELS = "SemanticsLabelsAPI:", "semantics:labels:"
 """How USD says what a prim is, in a taxonomy: the schema, and the attribute, before its name."""
 HULL_NAME = "meshforgeName"
 """The custom data of a collider: the name of its hull, where the prim has another one."""
+FILTERED = "physics:filteredPairs"
+"""The relationship of a body with those that it does not collide with."""
 
 _CONTACT_PREFIXES = ("physxcollision", "physxconvexhull", "newton", "mjc")
 _PHYSICS_MATERIAL = "material:binding:physics"
@@ -26,7 +28,7 @@ _INHERITED = ("physics:", "physx", "newton:", "mjc:", "material:binding:physics"
 _NOT_INHERITED = (
     *("physics:mass", "physics:centerOfMass", "physics:diagonalInertia", "physics:principalAxes"),
     *("physics:velocity", "physics:angularVelocity", "physics:rigidBodyEnabled", "physics:kinematicEnabled"),
-    *("physics:startsAsleep", "physics:approximation", "physics:filteredPairs", "physxRigidBody", "physxArticulation"),
+    *("physics:startsAsleep", "physics:approximation", FILTERED, "physxRigidBody", "physxArticulation"),
     *("physxConvexDecomposition", "physxSDFMesh", "physxSphereFill", "physxTriangleMesh", "physxMeshMerge"),
 )
 _INHERITED_SCHEMAS = ("PhysxCollisionAPI", "PhysxConvexHullCollisionAPI", "NewtonCollisionAPI", "MjcCollisionAPI")

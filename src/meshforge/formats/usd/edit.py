@@ -19,7 +19,7 @@ from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number, 
 from meshforge.formats.usd.read import read_collisions
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Geom, NonConvexPiece
+from meshforge.symbolic import Asset, FeatureKind, Geom, NonConvexPiece
 
 _ROOT = prims.PrimSpace(np.eye(3), np.zeros(3))
 _WORLDS = (stage.BODY, "world")
@@ -34,20 +34,26 @@ def write_usd(asset: Asset, document: stage.UsdDocument, name: str, mass: Mass) 
     Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
     """
     suffix = PurePosixPath(name).suffix.lower()
-    edited = document.is_edited(asset)
-    if not edited and suffix == asset.path.suffix.lower():
+    edited, pairs = document.is_edited(asset), asset.mechanism.added
+    if not edited and not pairs and suffix == asset.path.suffix.lower():
         copies, far = _list_copies(asset)
         return Output(document.source, copies=copies, notes=tuple(far))
 
     def author(scene: stage.UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
         bodies = colliders.StageBodies(scene, document.physics)
-        sources = list(read_collisions(scene, bodies, document.physics, []))
-        edit = HullEdit(scene, layer, document, bodies)
-        edit.run(asset, sources)
+        edit, sources = HullEdit(scene, layer, document, bodies), list[colliders.PrimCollision]()
+        if edited:
+            sources = list(read_collisions(scene, bodies, document.physics, []))
+            edit.run(asset, sources)
+        own = {name: bodies.prims[path] for path, name in bodies.names.items()}
+        for one, other in pairs:
+            if not own.keys() >= {one, other}:
+                raise AssetError(f"{one}:{other}: USD filters pairs of rigid bodies", where=str(asset.path))
+            prims.filter_pair(edit.spec_of(own[one]), own[other].GetPath())
         notes = _keep_masses(edit, sources) if mass == "keep" else []
         return [*notes, *edit.notes, *note_renames(edit.names)], edit.names
 
-    return _edit_root_layer(asset, document, PurePosixPath(name), author if edited else None)
+    return _edit_root_layer(asset, document, PurePosixPath(name), author if edited or pairs else None)
 
 
 def add_usd_colliders(asset: Asset, document: stage.UsdDocument, name: str) -> Output:
@@ -197,6 +203,12 @@ class _Creator:
         for piece in self.asset.non_convex:
             self._add_non_convex(piece)
         lost = self._add_visuals()
+        for one, other in self.asset.mechanism.apart:
+            if self.bodies.keys() >= {one, other}:
+                prims.filter_pair(self.bodies[one], self.bodies[other].path)
+            else:
+                why = "USD filters pairs of bodies that can move"
+                lost.append(Loss(FeatureKind.PAIRS, (f"{one}:{other}",), why))
         suffix, stem = self.name.suffix.lower(), self.name.stem
         main = stage.export_layer(self.layer, crate=stage.is_crate_wanted(suffix, None))
         if suffix == stage.PACKAGE_SUFFIX:

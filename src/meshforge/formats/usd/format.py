@@ -28,7 +28,7 @@ class UsdFormat(base.SceneFormat):
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"
     marks = "as colliders of UsdPhysics"
-    holds = base.BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.NON_CONVEX, FeatureKind.PLANES}
+    holds = base.BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.NON_CONVEX, FeatureKind.PLANES, FeatureKind.PAIRS}
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     # The library runs in a process of its own, since a damaged file may crash it.

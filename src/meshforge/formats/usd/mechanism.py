@@ -9,7 +9,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.colliders import PrimCollision, StageBodies, physics_material
+from meshforge.formats.usd.colliders import FILTERED, PrimCollision, StageBodies, physics_material
 from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
 from meshforge.geometry import Floats, Polytope, Pose, Shape
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
@@ -46,7 +46,7 @@ def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
     """The pairs of bodies that are filtered; pairs of colliders, or with articulations, are left out."""
     found = []
     for path, prim in bodies.prims.items():
-        relationship = prim.GetRelationship("physics:filteredPairs")
+        relationship = prim.GetRelationship(FILTERED)
         targets = relationship.GetForwardedTargets() if relationship else []
         found += [(bodies.names[path], bodies.names[str(t)]) for t in targets if str(t) in bodies.names]
     return tuple(found)

@@ -11,7 +11,15 @@ from meshforge import geometry
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.colliders import COLLISION, DRAWN, LABELS, LABELS_SCHEMA, MESH_COLLISION, apply_schemas
+from meshforge.formats.usd.colliders import (
+    COLLISION,
+    DRAWN,
+    FILTERED,
+    LABELS,
+    LABELS_SCHEMA,
+    MESH_COLLISION,
+    apply_schemas,
+)
 from meshforge.formats.usd.stage import UsdStage, rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
 from meshforge.symbolic import Inertial
@@ -165,6 +173,13 @@ def set_labels(spec: Any, labels: Iterable[str]) -> None:
     if own := [*dict.fromkeys(filter(None, labels))]:
         apply_schemas(spec, [f"{LABELS_SCHEMA}class"])
         set_value(spec, f"{LABELS}class", "TokenArray", own)
+
+
+def filter_pair(spec: Any, other: Any) -> None:
+    """Keep a body from colliding with another one; other: its path."""
+    apply_schemas(spec, ["PhysicsFilteredPairsAPI"])
+    own = spec.relationships.get(FILTERED) or pxr.Sdf.RelationshipSpec(spec, FILTERED, False)
+    own.targetPathList.Append(other)
 
 
 def add_collision(spec: Any, approximation: str | None) -> None:
