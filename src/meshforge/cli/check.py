@@ -62,7 +62,7 @@ class CheckArguments:
     ] = None
     pictures: Annotated[
         Path | None,
-        typer.Option("--pictures", help="Folder for heat maps, and pictures of what is closed and of pairs."),
+        typer.Option("--pictures", help="Folder for heat maps, what is closed, and pairs, as pictures."),
     ] = None
     fix: Annotated[
         bool,
@@ -95,9 +95,9 @@ class CheckArguments:
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
-    --fit, --clearance, --physics and --pairs measure more, in seconds an asset. Exit code 1 when something is wrong or cannot be
-    read, with --strict also when it is doubtful, with --baseline only where that is not in the file; 2 when the command
-    makes no sense. meshforge explain CODE says what a finding means.
+    --fit, --clearance, --physics and --pairs measure more, in seconds an asset. Exit code 1 when something is wrong or
+    cannot be read, with --strict also when it is doubtful, with --baseline only where that is not in the file; 2 when
+    the command makes no sense. meshforge explain CODE says what a finding means.
     """
     chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
     asked = filter(None, [given.engine, given.second_opinion])
@@ -170,9 +170,9 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
     else:
         options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices", "exclude"), "--fix")
     if not any(check.has_cells for check in measures.checks):
-        options.refuse_options(
-            given.context, ("cell",) if given.pairs else ("cell", "pictures"), "--fit or --clearance"
-        )
+        options.refuse_options(given.context, ("cell",), "--fit or --clearance")
+        if not given.pairs:
+            options.refuse_options(given.context, ("pictures",), "--fit, --clearance or --pairs")
     if not any(check.compares for check in measures.checks):
         options.refuse_options(given.context, ("against",), "--clearance or --physics")
 

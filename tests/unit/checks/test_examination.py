@@ -77,7 +77,7 @@ def test_a_missing_asset_to_compare_with_is_told(run: Run) -> None:
     ("words", "problem"),
     [
         (("--cell", "0.1"), "--cell says nothing without --fit or --clearance"),
-        (("--pictures", "out"), "--pictures says nothing without --fit or --clearance"),
+        (("--pictures", "out"), "--pictures says nothing without --fit, --clearance or --pairs"),
         (("--fit", "--against", "before"), "--against says nothing without --clearance or --physics"),
     ],
 )

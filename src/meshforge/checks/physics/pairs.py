@@ -38,7 +38,7 @@ class PairProposal:
     fault: str = ""
 
     def __str__(self) -> str:
-        doubt = f"; not among `all`, since {self.fault}" if self.fault else ""
+        doubt = f"; not in `all`: {self.fault}" if self.fault else ""
         return f"{':'.join(self.bodies)} {self.where}, {self.hulls[0]} is {mm(self.depth)} in {self.hulls[1]}{doubt}"
 
 
@@ -52,7 +52,8 @@ class PairProposals(Measure):
     def description(self) -> str:
         if not self.pairs:
             return "no bodies reach into each other, at rest or as joints move"
-        return "\n".join([f"{pluralize(len(self.pairs), 'pair')} to exclude:", *(f"  {pair}" for pair in self.pairs)])
+        head = f"{pluralize(len(self.pairs), 'pair')} of bodies could be excluded from contact:"
+        return "\n".join([head, *(f"- {pair}" for pair in self.pairs)])
 
     def to_json(self) -> dict[str, Any]:
         """Return the pairs as JSON-able data; depths in metres."""
