@@ -74,7 +74,7 @@ PAGES = (
     Page(
         "checks",
         "# Checks and goals\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same.\n",
-        ("goals", "evidence", "defects", "engine_shapes", "referees"),
+        ("goals", "evidence", "defects", "pairs", "engine_shapes", "referees"),
         ("numpy", "scipy", "mujoco"),
     ),
     Page(

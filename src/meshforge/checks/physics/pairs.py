@@ -53,7 +53,7 @@ class PairProposals(Measure):
         if not self.pairs:
             return "no bodies reach into each other, at rest or as joints move"
         head = f"{pluralize(len(self.pairs), 'pair')} of bodies could be excluded from contact:"
-        return "\n".join([head, *(f"- {pair}" for pair in self.pairs)])
+        return "\n".join([head, *(f"    - {pair}" for pair in self.pairs)])
 
     def to_json(self) -> dict[str, Any]:
         """Return the pairs as JSON-able data; depths in metres."""
