@@ -50,13 +50,13 @@ def measure(tell: Tell, quick: bool) -> Result:
             Goal("wanted pairs that were lost", "at most", 0, sum(len(row["lost"]) for row in tried)),
         ),
         (
-            "Assets of the corpus with several bodies and a joint that turns or slides, written as MJCF, opaque pieces as "
-            "hulls. `check --pairs` proposes, each proposal is confirmed by name (`convert --exclude`), and MuJoCo opens "
-            "what is written, with its own filter of parents.",
+            "Assets of the corpus with several bodies and a joint that turns or slides, written as MJCF, opaque pieces "
+            "as hulls. `check --pairs` proposes, each proposal is confirmed by name (`convert --exclude`), and MuJoCo "
+            "opens what is written, with its own filter of parents.",
             f"*Unwanted*: two bodies deeper than {100 * _DEEP:g}% of the diagonal in each other at rest or at one of "
             f"{_STEPS} places of a joint's range, the others at rest. *Lost*: bodies that touched before, however "
-            "deep, were not confirmed, and do not touch any more. The proposals have no part in either. What "
-            "would make it fail: a pair that the sweep passes over, names that are others in the file, an exclusion of too much.",
+            "deep, were not confirmed, and do not touch any more. The proposals have no part in either. What would "
+            "make it fail: a pair that the sweep passes over, names that are others in the file, an exclusion of more.",
             "*Doubtful* proposals are not in `--exclude all`: bodies that stop a joint, are mostly in each other, or "
             "are no neighbours, whose contact may be meant.",
         ),
