@@ -77,6 +77,11 @@ class Part:
         """The box around its hulls."""
         return Aabb.union(hull.aabb for hull in self.hulls)
 
+    def holds(self, hull: Hull, margin: float) -> bool:
+        """Whether the middle of a hull, in its frame, lies in the box around its hulls or so near to it [m]."""
+        at = hull.shape.centroid
+        return bool((self.box.min - margin <= at).all() and (at <= self.box.max + margin).all())
+
     def lower(self, surfaces: Sequence[Surface]) -> list[Surface]:
         """Return surfaces in its frame."""
         return [replace(one, vertices=one.vertices @ self.turn) for one in surfaces]

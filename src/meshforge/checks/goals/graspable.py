@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.checks.goals.base import Goal, GoalSubject, Part
+from meshforge.checks.goals.rooms import clip_hull
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Aabb, Floats
 from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, WordArgument
 from meshforge.symbolic import Hull
 
-_PULLS = ("back", "up")
+_PULLS, _GRIPS = ("back", "up"), ("any", "behind")
 _OPEN = 1.4  # of what is between the fingers, how far they are open
 _ROOM = 1.5  # of half the opening, that open fingers take up to each side
 _SPOTS = (0.5, 0.3, 0.7)
@@ -37,19 +38,27 @@ class Graspable(Goal):
         },
     )
     pull: str = field(default="back", metadata={"argument": OptionArgument("pull", WordArgument(_PULLS))})
+    grip: str = field(default="any", metadata={"argument": OptionArgument("grip", WordArgument(_GRIPS))})
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
         from meshforge.checks.physics.gripper import try_grasp  # lazy: MuJoCo takes 0.3 s
 
         handles = {hull.name for hull in subject.select_after(self.handle)}
+        own = {hull.name for hull in subject.select(self.handle)}
+        others = [hull for hull in subject.hulls_before if hull.name not in own]
         for number, part in enumerate(subject.select_parts(self.handle), 1):
             outward, hulls = part.box.center - part.turn.T @ subject.box.center, part.lower_hulls(subject.hulls)
             there = {hull.name for hull in hulls if _is_within(hull, part)}
             if not there:
                 return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
             rest = [hull for hull in hulls if hull.name not in handles | there]
-            grips = list(find_grips(part, rest, outward, self.width, 2 * subject.touching))
+            bars: Sequence[Hull] | None = None
+            if self.grip == "behind":
+                outward = find_outward(part, part.lower_hulls(others), 2 * subject.touching)
+                bars = [hull for hull in hulls if part.holds(hull, 2 * subject.touching) or hull.name in handles]
+                rest = [hull for hull in rest if hull not in bars]
+            grips = list(find_grips(part, rest, outward, self.width, 2 * subject.touching, bars))
             if not grips:
                 return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
             first: Failure | None = None
@@ -74,11 +83,36 @@ class Graspable(Goal):
 def _is_within(hull: Hull, part: Part) -> bool:
     """Whether a hull is in the middle of one that a part is made of."""
     reach = [(box.center, _CORE * box.size / 2) for box in (one.aabb for one in part.hulls)]
-    return any(_clip(hull, Aabb(middle - half, middle + half)) for middle, half in reach)
+    return any(clip_hull(hull, Aabb(middle - half, middle + half)) for middle, half in reach)
+
+
+def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
+    """Return the axis (3,) that leads away from what a part is attached to; margin: at most so far from it [m]."""
+    window = Aabb(part.box.min - margin, part.box.max + margin)
+    found = [box for one in others if (box := clip_hull(one, window))]
+    way = sum(((part.box.center - box.center) / part.box.size * np.prod(box.size) for box in found), np.zeros(3))
+    axis = int(np.abs(way).argmax())
+    return np.copysign(np.eye(3)[axis], way[axis])
+
+
+def slice_outside(hulls: Sequence[Hull], outward: Floats, window: Aabb) -> Aabb | None:
+    """Return the box around the outermost piece of what lies in a box: the bar before an opening."""
+    boxes = [box for one in hulls if (box := clip_hull(one, window))]
+    axis = int(np.abs(outward).argmax())
+    boxes.sort(key=lambda box: -max(outward[axis] * box.min[axis], outward[axis] * box.max[axis]))
+    piece = boxes[:1]
+    for box in boxes[1:]:
+        if Aabb.union(piece).touches(box): piece.append(box)
+    return Aabb.union(piece) if piece else None
 
 
 def find_grips(
-    part: Part, rest: Sequence[Hull], outward: Floats, width: float | None, margin: float
+    part: Part,
+    rest: Sequence[Hull],
+    outward: Floats,
+    width: float | None,
+    margin: float,
+    bars: Sequence[Hull] | None = None,
 ) -> Iterator[Place]:
     """Yield where a gripper may take a part, in its frame, the likeliest first.
 
@@ -87,13 +121,19 @@ def find_grips(
     of the asset; width: of the opening [m], None for what it takes; margin: to keep from other hulls [m].
     """
     whole = part.box
-    long = int(whole.size.argmax())
+    sides = whole.size if bars is None else whole.size * (outward == 0.0)
+    long = int(sides.argmax())
     reach = _REACH * float(whole.size[long])
     rows = list[tuple[tuple[float, ...], Place]]()
     for order, spot in enumerate(_SPOTS):
         at = float(whole.min[long] + spot * whole.size[long])
-        section = slice_bounds(part.hulls, long, at - reach, at + reach)
-        for across in (k for k in range(3) if k != long):
+        if bars is None:
+            section = slice_bounds(part.hulls, long, at - reach, at + reach)
+        else:
+            low, high = whole.min - margin, whole.max + margin
+            low[long], high[long] = at - reach, at + reach
+            section = slice_outside(bars, outward, Aabb(low, high))
+        for across in (k for k in range(3) if k != long and (bars is None or outward[k] != 0.0)):
             thick = float(section.size[across]) if section else np.inf
             if section is None or (width is not None and width <= thick):
                 continue
@@ -121,7 +161,7 @@ def _fit_fingers(
     window = Aabb(section.center - reach, section.center + reach)
     side = float(inward[axis])
     front, back = (section.min[axis], section.max[axis]) if side > 0 else (section.max[axis], section.min[axis])
-    ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (_clip(one, window) for one in rest))]
+    ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (clip_hull(one, window) for one in rest))]
     depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
     if depth < _SHALLOW * abs(back - front):
         return None
@@ -130,18 +170,6 @@ def _fit_fingers(
     closing = np.eye(3)[across]
     axes = np.stack([inward, closing, np.cross(inward, closing)], axis=1)
     return Place(at, np.array([depth / 2, opening, half]), axes)
-
-
-def _clip(hull: Hull, window: Aabb) -> Aabb | None:
-    """The box around what of a hull lies in a box."""
-    from manifold3d import Manifold  # lazy: few commands need it
-
-    if (hull.aabb.min > window.max).any() or (hull.aabb.max < window.min).any():
-        return None
-    room = Manifold.cube(window.size.tolist(), center=True).translate(window.center.tolist())
-    inside = Manifold.hull_points(hull.vertices) ^ room
-    box = inside.bounding_box()
-    return None if inside.is_empty() else Aabb(box[:3], box[3:])
 
 
 def slice_bounds(hulls: Sequence[Hull], axis: int, low: float, high: float) -> Aabb | None:

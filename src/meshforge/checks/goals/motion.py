@@ -1,14 +1,18 @@
 """Goals on motion: that an asset stands, and that what joints move goes through its range."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import product
+from operator import or_
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.scene import Failure, Place, frame_of_axis
 from meshforge.common import require_mujoco
+from meshforge.geometry import Floats
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -17,7 +21,9 @@ from meshforge.language import (
     OptionArgument,
     QuantityArgument,
 )
-from meshforge.symbolic import Hull, Joint
+from meshforge.symbolic import Hull, Joint, bits_of, split_by_contact
+
+_LONG = 0.9  # of the longest pin, from which on one says where the axis is
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,11 +76,13 @@ class Swings(Goal):
             return Failure(f"nothing of {self.leaf} is left")
         if self.about is not None:
             assert self.axis and self.angle
-            centre = np.mean([hull.shape.centroid for hull in subject.select(self.about)], axis=0)
-            axis = Place(centre, np.array([0.0, self.angle, 0.0]), frame_of_axis(subject.turn_axis(self.axis)))
-            names = {hull.name for hull in moved}
-            rest = [hull for hull in subject.hulls if hull.name not in names]
-            return try_swing(moved, rest, axis, subject.touching, "hinge", self._find_apart(subject))
+            pins = subject.select(self.about)
+            axis = place_axis(pins, subject.turn_axis(self.axis), self.angle)
+            held = {hull.name for hull in (*pins, *subject.select_after(self.about))} - {hull.name for hull in moved}
+            carried = {hull.name for hull in _find_carried(subject, subject.select(self.leaf), pins)}
+            moving = [hull for hull in subject.hulls if hull in moved or hull.name in carried - held]
+            rest = [hull for hull in subject.hulls if hull not in moving and hull.name not in held]
+            return try_swing(moving, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
         if not joints:
             raise NotApplicableError(f"no joint moves {self.leaf}; give about, axis and angle")
@@ -97,6 +105,26 @@ class Swings(Goal):
             if i < j and (one.name in ignored or other.name in ignored or not rules.may_touch(i, j)):
                 apart.add(frozenset((one.name, other.name)))
         return frozenset(apart)
+
+
+def place_axis(pins: Sequence[Hull], axis: Floats, angle: float) -> Place:
+    """Return a hinge about an axis (3,), by so many degrees: through the middle of the longest of its pins along it."""
+    spans = [float(np.ptp(hull.vertices @ axis)) for hull in pins]
+    longest = [hull.shape.centroid for hull, span in zip(pins, spans, strict=True) if span >= _LONG * max(spans)]
+    return Place(np.mean(longest, axis=0), np.array([0.0, angle, 0.0]), frame_of_axis(axis))
+
+
+def _find_carried(subject: GoalSubject, leaf: Sequence[Hull], pins: Sequence[Hull]) -> list[Hull]:
+    """What hangs on a leaf, such as a handle: hulls after the edit where pieces were that touched it, without pins, all
+    but the largest piece. leaf, pins: as they were before."""
+    mesh = subject.start
+    own, held = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
+    beside = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
+    pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | held))
+    parts = {piece: Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces}
+    largest = max((part.box.diagonal for part in parts.values()), default=0.0)
+    hung = [part for piece, part in parts.items() if piece & beside and part.box.diagonal < largest]
+    return [hull for hull in subject.hulls if any(part.holds(hull, 0.0) for part in hung)]
 
 
 def _find_joints(subject: GoalSubject, moved: tuple[Hull, ...]) -> list[tuple[Joint, frozenset[str]]]:

@@ -109,7 +109,8 @@ class Passes(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        ways = dict[str, Place]()
+        ways, own = dict[str, Place](), {hull.name for hull in subject.select(self.opening)}
+        others = [hull for hull in subject.hulls_before if hull.name not in own]
         for number, part in enumerate(subject.select_parts(self.opening), 1):
             axes = range(3) if self.way is None else [int(np.abs(part.turn.T @ subject.turn_axis(self.way)).argmax())]
             ways_along = (_find_place(subject, self.opening, part, partial(rooms.find_way, axis=axis)) for axis in axes)
@@ -119,8 +120,12 @@ class Passes(Goal):
             way = max(found, key=lambda one: float(one.size[1] * one.size[2]))
             if too_large := _find_excess(self.size, way.size[1:], "opening", f"opening {number}", part.lift(way)):
                 return too_large
-            size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
-            ways[f"opening {number}"] = part.lift(replace(way, size=size))
+            half = _half_sizes(self.size, way.size[1:])
+            half = half if self.shape == "box" else np.full(2, half.min())
+            past = subject.touching + (0.0 if self.shape == "box" else float(half.min()))
+            way = replace(way, size=np.array([way.size[0], *half]))
+            outward = part.box.center - part.turn.T @ subject.box.center
+            ways[f"opening {number}"] = part.lift(rooms.end_inside(way, part.lower_hulls(others), outward, past))
         if not ways:
             raise NotApplicableError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
         return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]  # one of its words
@@ -131,8 +136,7 @@ def _find_place(
 ) -> Place | None:
     """What `find` finds in a part: after the edit, unless that is much less than before it."""
     before, hulls = find(part.hulls), part.lower_hulls(subject.select_after(extractor))
-    low, high = part.box.min - subject.touching, part.box.max + subject.touching
-    near = [hull for hull in hulls if (low <= hull.shape.centroid).all() and (hull.shape.centroid <= high).all()]
+    near = [hull for hull in hulls if part.holds(hull, subject.touching)]
     after = find(near) if near else None
     is_kept = after and (before is None or np.prod(after.size) >= _KEPT * np.prod(before.size))
     return after if is_kept else before

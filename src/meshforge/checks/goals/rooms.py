@@ -73,6 +73,41 @@ def find_way(hulls: Sequence[Hull], axis: int) -> Place | None:
     return Place(at, np.array([whole.aabb.size[axis], *box.size[others]]), axes)
 
 
+def end_inside(way: Place, others: Sequence[Hull], outward: Floats, past: float) -> Place:
+    """Return a way up to where its inner half meets what closes its inner end, such as the body behind a spout.
+
+    others: hulls that may do so, in the frame of the way; outward: (3,), towards its outer end; past: how far a probe
+    reaches beyond its ends [m].
+    """
+    axis = int(np.abs(way.axes[:, 0]).argmax())
+    inward = -1.0 if outward[axis] > 0 else 1.0
+    length, half = float(way.size[0]), np.abs(way.axes) @ np.array([0.0, *way.size[1:]])
+    inner = way.at[axis] + (length if inward > 0 else 0.0)
+    ends = [inner + inward * past, inner - inward * length / 2]
+    low, high = way.at - half, way.at + half
+    low[axis], high[axis] = min(ends), max(ends)
+    found = [box for one in others if (box := clip_hull(one, Aabb(low, high)))]
+    meets = [box.min[axis] - inner if inward > 0 else inner - box.max[axis] for box in found]
+    closes = any((box.max[axis] if inward > 0 else -box.min[axis]) >= inward * inner for box in found)
+    cut = past - min(meets) if closes else 0.0
+    if not 0.0 < cut < length:
+        return way
+    at = way.at + (cut * np.eye(3)[axis] if inward < 0 else 0.0)
+    return Place(at, np.array([length - cut, *way.size[1:]]), way.axes)
+
+
+def clip_hull(hull: Hull, window: Aabb) -> Aabb | None:
+    """Return the box around what of a hull lies in a box, None where nothing does."""
+    from manifold3d import Manifold  # lazy: few commands need it
+
+    if (hull.aabb.min > window.max).any() or (hull.aabb.max < window.min).any():
+        return None
+    room = Manifold.cube(window.size.tolist(), center=True).translate(window.center.tolist())
+    inside = Manifold.hull_points(hull.vertices) ^ room
+    box = inside.bounding_box()
+    return None if inside.is_empty() else Aabb(box[:3], box[3:])
+
+
 def _hull_around(hulls: Sequence[Hull]) -> Polytope | None:
     points = np.concatenate([hull.vertices for hull in hulls])
     try:
