@@ -125,7 +125,7 @@ def find_grips(
     long = int(sides.argmax())
     reach = _REACH * float(whole.size[long])
     rows = list[tuple[tuple[float, ...], Place]]()
-    for order, spot in enumerate(_SPOTS):
+    for order, spot in enumerate(_SPOTS if bars is None else _SPOTS[:1]):
         at = float(whole.min[long] + spot * whole.size[long])
         if bars is None:
             section = slice_bounds(part.hulls, long, at - reach, at + reach)

@@ -10,7 +10,7 @@ from meshforge.checks.goals import rooms
 from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
-from meshforge.geometry import Box, Floats, Pose
+from meshforge.geometry import Aabb, Box, Floats, Pose
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -41,12 +41,16 @@ class Supports(Goal):
     size: float | Share = field(
         default=Share(0.1), metadata={"argument": _size("its shorter side"), "title": "Size of the balls"}
     )
+    ignore: Extractor | None = field(
+        default=None,
+        metadata={"argument": OptionArgument("ignore", ExtractorArgument()), "title": "Where nothing is put"},
+    )
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        placed = []
+        placed, clutter = [], subject.select_after(self.ignore) if self.ignore is not None else ()
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
             long, wide = box.size[:2]
@@ -55,12 +59,12 @@ class Supports(Goal):
             surface = Place(at, np.array([_MIDDLE * long, _MIDDLE * wide, radius]), np.eye(3))
             there = objects.objects_on(f"surface {number}", surface)
             tops = rooms.measure_tops(part.hulls, np.array([one.spot[:2] for one in there]))
-            low = box.max[2] - _LOW * box.size[2]
-            placed += [
-                replace(one, spot=part.turn @ np.array([*one.spot[:2], top]), axes=part.turn)
-                for one, top in zip(there, tops, strict=True)
-                if top >= low
-            ]
+            low, lying = box.max[2] - _LOW * box.size[2], part.lower_hulls(clutter)
+            for one, top in zip(there, tops, strict=True):
+                spot = np.array([*one.spot[:2], top])
+                room = _measure_room(spot, one.shape.aabb.size)
+                if top >= low and not any(rooms.clip_hull(hull, room) for hull in lying):
+                    placed.append(replace(one, spot=part.turn @ spot, axes=part.turn))
         if not placed:
             raise NotApplicableError(f"{self.surface} has no surface to put things on")
         return objects.try_support(subject.hulls, placed, subject.touching)
@@ -140,6 +144,12 @@ def _find_place(
     after = find(near) if near else None
     is_kept = after and (before is None or np.prod(after.size) >= _KEPT * np.prod(before.size))
     return after if is_kept else before
+
+
+def _measure_room(spot: Floats, size: Floats) -> Aabb:
+    """The box that a thing of some size takes up on a surface at a spot."""
+    low = spot - size * [0.5, 0.5, 0.0]
+    return Aabb(low, low + size)
 
 
 def _measure(size: float | Share, whole: float) -> float:
