@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, NoReturn, Self
+from typing import Any, ClassVar, Literal, NoReturn, Self
 
 import numpy as np
 
@@ -14,12 +14,15 @@ from meshforge.checks.base import LEAST_SIZE, MOST_SIZE
 from meshforge.checks.physics.scene import TOLERANCE, Failure, Place
 from meshforge.common import MeshForgeError, ProgramError, blame, describe_error
 from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
-from meshforge.label_model.describe import find_upright_rotation
+from meshforge.label_model.describe import face_normals, find_upright_rotation, rotation_to_z
 from meshforge.language import EXTREMITY, Extractor, Operation, Program, Replay, labels_of, select_mask
 from meshforge.language.arguments import MissingOperation
 from meshforge.language.extractors.base import rename_in_extractor
 from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
+
+_LEAN = 10.0  # degrees, that what landmarks say is up may be off
+_SAME, _LEVEL = 0.01, 0.1  # normals of level faces differ by less, and these are of all faces at least
 
 GoalOutcome = Literal["passed", "failed", "untried", "broken"]
 
@@ -32,6 +35,8 @@ class Goal(Operation, ABC):
     """What an asset must do after its edit: a frozen dataclass as all operations, written with a small letter."""
 
     __slots__ = ()
+    on_level: ClassVar[bool] = False
+    """Whether its subject is `level`, as for things that must not roll or lean."""
 
     @classmethod
     def word(cls) -> str:
@@ -101,7 +106,7 @@ class GoalSubject:
     """An asset as it stands, Z up [m], before and after its edit.
 
     start, end: the same in the frame of the program, in which extractors select; turn, upright: the rotations (3, 3)
-    upright_T_program and upright_T_file; extremity: see `select`.
+    upright_T_program and upright_T_file; extremity: of extractors; by_landmarks: whether what is up comes from these.
     """
 
     start: SymbolicMesh
@@ -109,6 +114,7 @@ class GoalSubject:
     turn: Floats
     upright: Floats
     extremity: float = EXTREMITY
+    by_landmarks: bool = False
 
     @classmethod
     def of(cls, before: SymbolicMesh, after: SymbolicMesh, program: Program) -> Self:
@@ -119,7 +125,26 @@ class GoalSubject:
         end = replace(end, epsilon=replay.start.epsilon, scale=replay.start.scale)
         upright = find_upright_rotation(before, program.orient)
         turn = upright @ replay.pose.rotation.T
-        return cls(replay.start, end, turn, upright, EXTREMITY if program.extremity is None else program.extremity)
+        extremity = EXTREMITY if program.extremity is None else program.extremity
+        return cls(replay.start, end, turn, upright, extremity, bool(program.orient and program.orient.names_z))
+
+    @cached_property
+    def level(self) -> GoalSubject:
+        """The same, its level faces level, such as seats, tops and feet: centres of landmarks are a few degrees off."""
+        normals, areas = face_normals(self.start)
+        ways = normals @ self.turn.T
+        ways *= np.sign(ways[:, 2:])
+        near = ways[:, 2] > np.cos(np.radians(_LEAN))
+        if not self.by_landmarks or not near.any():
+            return self
+        cells, groups = np.unique(np.round(ways[near], 2), axis=0, return_inverse=True)
+        largest = cells[np.bincount(groups.ravel(), areas[near]).argmax()]
+        same = near & (np.linalg.norm(ways - largest, axis=1) < _SAME)
+        up = areas[same] @ ways[same]
+        if areas[same].sum() < _LEVEL * areas.sum():
+            return self
+        lean = rotation_to_z(up / np.linalg.norm(up))
+        return replace(self, turn=lean @ self.turn, upright=lean @ self.upright, by_landmarks=False)
 
     @property
     def touching(self) -> float:
@@ -210,11 +235,14 @@ def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
             raise NotApplicableError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
         if not subject.end.hulls:
             return GoalResult(str(goal), "failed", "no hull is left")
+        level = subject.level if goal.on_level else subject
         with blame(goal.plugin):
-            failure = goal.find_failure(subject)
-            if failure is None:
-                return GoalResult(str(goal), "passed")
-            return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
+            failure = goal.find_failure(level)
+        if failure is None:
+            return GoalResult(str(goal), "passed")
+        back = Pose(subject.turn @ level.turn.T, np.zeros(3))
+        objects = tuple(one.move(back) for one in failure.objects)
+        return GoalResult(str(goal), "failed", failure.text, failure.hulls, objects)
     except NotApplicableError as error:
         return GoalResult(str(goal), "untried", error.problem)
     except ProgramError:

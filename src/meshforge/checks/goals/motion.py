@@ -30,6 +30,8 @@ _LONG = 0.9  # of the longest pin, from which on one says where the axis is
 class Stands(Goal):
     """Dropped from 1 cm as one rigid body, leaning a little, it ends upright and at rest."""
 
+    on_level = True
+
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
         from meshforge.checks.physics.motion import try_stand  # lazy: MuJoCo takes 0.3 s

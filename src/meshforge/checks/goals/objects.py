@@ -37,6 +37,8 @@ def _size(of: str) -> OptionArgument:
 class Supports(Goal):
     """Boxes and balls that are put onto each part of a selection stay there."""
 
+    on_level = True
+
     surface: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What carries"})
     size: float | Share = field(
         default=Share(0.1), metadata={"argument": _size("its shorter side"), "title": "Size of the balls"}
