@@ -21,6 +21,7 @@ _SPOTS = (0.5, 0.3, 0.7)
 _REACH = 0.2  # of the length of a bar, half the height of fingers
 _MOST_TRIED = 6
 _CORE = 0.5  # of the size of a hull, within which something must be left of it
+_SMALL = 0.1  # of the volume of the largest part: one that is smaller may be gone, such as a wire
 _SHALLOW = 0.2  # of a bar, that fingers reach over at least
 
 
@@ -47,9 +48,13 @@ class Graspable(Goal):
         handles = {hull.name for hull in subject.select_after(self.handle)}
         own = {hull.name for hull in subject.select(self.handle)}
         others = [hull for hull in subject.hulls_before if hull.name not in own]
-        for number, part in enumerate(subject.select_parts(self.handle), 1):
+        parts = subject.select_parts(self.handle)
+        largest = max(part.volume for part in parts)
+        for number, part in enumerate(parts, 1):
             outward, hulls = part.box.center - part.turn.T @ subject.box.center, part.lower_hulls(subject.hulls)
             there = {hull.name for hull in hulls if _is_within(hull, part)}
+            if not there and part.volume < _SMALL * largest:
+                continue
             if not there:
                 return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
             rest = [hull for hull in hulls if hull.name not in handles | there]

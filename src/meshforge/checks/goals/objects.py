@@ -26,6 +26,7 @@ from meshforge.symbolic import Hull
 _SHAPES, _PROBES = ("box", "sphere", "cylinder"), ("box", "sphere")
 _MIDDLE = 0.4  # of each side of a surface, that things are put within on both sides of its middle
 _KEPT = 0.5  # of a room or an opening before the edit, from which on it counts as it is after it
+_TALL = 0.5  # of the shorter side of a surface: what rises above it by more bounds it, such as the back of a seat
 _LOW = 0.2  # of the height of a part, by which a spot may lie lower than its top
 
 
@@ -53,6 +54,8 @@ class Supports(Goal):
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
         placed, clutter = [], subject.select_after(self.ignore) if self.ignore is not None else ()
+        own = {hull.name for hull in subject.select(self.surface)}
+        others = [hull for hull in subject.hulls_before if hull.name not in own]
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
             long, wide = box.size[:2]
@@ -62,6 +65,7 @@ class Supports(Goal):
             there = objects.objects_on(f"surface {number}", surface)
             tops = rooms.measure_tops(part.hulls, np.array([one.spot[:2] for one in there]))
             low, lying = box.max[2] - _LOW * box.size[2], part.lower_hulls(clutter)
+            lying += [hull for hull in part.lower_hulls(others) if hull.aabb.max[2] > box.max[2] + _TALL * min(long, wide)]
             for one, top in zip(there, tops, strict=True):
                 spot = np.array([*one.spot[:2], top])
                 room = _measure_room(spot, one.shape.aabb.size)
