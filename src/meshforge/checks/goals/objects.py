@@ -63,7 +63,9 @@ class Supports(Goal):
             at = np.array([*box.center[:2], box.max[2]])
             surface = Place(at, np.array([_MIDDLE * long, _MIDDLE * wide, radius]), np.eye(3))
             there = objects.objects_on(f"surface {number}", surface)
-            tops = rooms.measure_tops(part.hulls, np.array([one.spot[:2] for one in there]))
+            spots = np.array([one.spot[:2] for one in there])
+            tops = rooms.measure_tops(part.hulls, spots)
+            tops[np.isinf(tops) & rooms.is_over(part.hulls, spots)] = box.max[2]
             low, lying = box.max[2] - _LOW * box.size[2], part.lower_hulls(clutter)
             lying += [hull for hull in part.lower_hulls(others) if hull.aabb.max[2] > box.max[2] + _TALL * min(long, wide)]
             for one, top in zip(there, tops, strict=True):

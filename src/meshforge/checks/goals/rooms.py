@@ -17,7 +17,7 @@ from meshforge.checks.grid import (
 from meshforge.checks.physics.scene import Place
 from meshforge.checks.surface_samples import join_corners
 from meshforge.common import GeometryError
-from meshforge.geometry import Aabb, Floats, Polytope, convex_hull
+from meshforge.geometry import Aabb, Bools, Floats, Polytope, convex_hull
 from meshforge.symbolic import Hull, Surface
 
 _NEAR = 2.0  # cells, that what is shown may be away from the hulls of a part
@@ -31,6 +31,14 @@ def measure_tops(hulls: Sequence[Hull], places: Floats) -> Floats:
         low, high = heights_at(hull.shape, places)
         tops = np.where(low <= high, np.maximum(tops, high), tops)
     return tops
+
+
+def is_over(hulls: Sequence[Hull], places: Floats) -> Bools:
+    """Return which places (n, 2) are over hulls, or over a gap between them: (n,)."""
+    whole = _hull_around(hulls)
+    low, high = heights_at(whole, places) if whole else (np.ones(len(places)), np.zeros(len(places)))
+    over: Bools = low <= high
+    return over
 
 
 def find_room(hulls: Sequence[Hull], surfaces: Sequence[Surface]) -> Place | None:
