@@ -21,8 +21,9 @@ from meshforge.language.extractors.base import rename_in_extractor
 from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
 
-_LEAN = 10.0  # degrees, that what landmarks say is up may be off
-_SAME, _LEVEL = 0.01, 0.1  # normals of level faces differ by less, and these are of all faces at least
+_LEANS = (10.0, 5.0, 2.0, 1.0)
+"""Degrees, that level faces are off at most, from what landmarks say is up, then from their mean."""
+_LEVEL = 0.1  # of the area of all faces, that these have at least
 
 GoalOutcome = Literal["passed", "failed", "untried", "broken"]
 
@@ -137,19 +138,16 @@ class GoalSubject:
     def level(self) -> GoalSubject:
         """The same, its level faces level, such as seats, tops and feet: centres of landmarks are a few degrees off."""
         normals, areas = face_normals(self.start)
-        ways = normals @ self.turn.T
+        ways, up = normals @ self.turn.T, np.eye(3)[2]
         ways *= np.sign(ways[:, 2:])
-        near = ways[:, 2] > np.cos(np.radians(_LEAN))
-        if not self.by_landmarks or not near.any():
-            return self
-        cells, groups = np.unique(np.round(ways[near], 2), axis=0, return_inverse=True)
-        largest = cells[np.bincount(groups.ravel(), areas[near]).argmax()]
-        same = near & (np.linalg.norm(ways - largest, axis=1) < _SAME)
-        up = areas[same] @ ways[same]
-        if areas[same].sum() < _LEVEL * areas.sum():
-            return self
-        lean = rotation_to_z(up / np.linalg.norm(up))
-        return replace(self, turn=lean @ self.turn, upright=lean @ self.upright, by_landmarks=False)
+        for lean in _LEANS:
+            near = ways @ up > np.cos(np.radians(lean))
+            if not self.by_landmarks or areas[near].sum() < _LEVEL * areas.sum():
+                return self
+            up = areas[near] @ ways[near]
+            up /= np.linalg.norm(up)
+        lower = rotation_to_z(up)
+        return replace(self, turn=lower @ self.turn, upright=lower @ self.upright, by_landmarks=False)
 
     @property
     def touching(self) -> float:
@@ -199,6 +197,11 @@ class GoalSubject:
         self._select(extractor)
         found = bits_of(select_mask(extractor, self.end, self.extremity))
         return tuple(hull for k, hull in enumerate(self.hulls) if k in found)
+
+    def select_rest(self, extractor: Extractor) -> list[Hull]:
+        """Return all else before the edit."""
+        names = {hull.name for hull in self.select(extractor)}
+        return [hull for hull in self.hulls_before if hull.name not in names]
 
     def turn_axis(self, direction: str) -> Floats:
         """Return the axis (3,) of a direction of the program's frame."""

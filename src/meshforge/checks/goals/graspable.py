@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 
 import numpy as np
 
@@ -46,8 +47,7 @@ class Graspable(Goal):
         from meshforge.checks.physics.gripper import try_grasp  # lazy: MuJoCo takes 0.3 s
 
         handles = {hull.name for hull in subject.select_after(self.handle)}
-        own = {hull.name for hull in subject.select(self.handle)}
-        others = [hull for hull in subject.hulls_before if hull.name not in own]
+        others = subject.select_rest(self.handle)
         parts = subject.select_parts(self.handle)
         largest = max(part.volume for part in parts)
         for number, part in enumerate(parts, 1):
@@ -100,17 +100,6 @@ def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
     return np.copysign(np.eye(3)[axis], way[axis])
 
 
-def slice_outside(hulls: Sequence[Hull], outward: Floats, window: Aabb) -> Aabb | None:
-    """Return the box around the outermost piece of what lies in a box: the bar before an opening."""
-    boxes = [box for one in hulls if (box := clip_hull(one, window))]
-    axis = int(np.abs(outward).argmax())
-    boxes.sort(key=lambda box: -max(outward[axis] * box.min[axis], outward[axis] * box.max[axis]))
-    piece = boxes[:1]
-    for box in boxes[1:]:
-        if Aabb.union(piece).touches(box): piece.append(box)
-    return Aabb.union(piece) if piece else None
-
-
 def find_grips(
     part: Part,
     rest: Sequence[Hull],
@@ -132,12 +121,9 @@ def find_grips(
     rows = list[tuple[tuple[float, ...], Place]]()
     for order, spot in enumerate(_SPOTS if bars is None else _SPOTS[:1]):
         at = float(whole.min[long] + spot * whole.size[long])
-        if bars is None:
-            section = slice_bounds(part.hulls, long, at - reach, at + reach)
-        else:
-            low, high = whole.min - margin, whole.max + margin
-            low[long], high[long] = at - reach, at + reach
-            section = slice_outside(bars, outward, Aabb(low, high))
+        low, high = whole.min - margin, whole.max + margin
+        low[long], high[long] = at - reach, at + reach
+        section = slice_bounds(bars or part.hulls, Aabb(low, high), outward if bars else None)
         for across in (k for k in range(3) if k != long and (bars is None or outward[k] != 0.0)):
             thick = float(section.size[across]) if section else np.inf
             if section is None or (width is not None and width <= thick):
@@ -166,7 +152,9 @@ def _fit_fingers(
     window = Aabb(section.center - reach, section.center + reach)
     side = float(inward[axis])
     front, back = (section.min[axis], section.max[axis]) if side > 0 else (section.max[axis], section.min[axis])
-    ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (clip_hull(one, window) for one in rest))]
+    ends = [
+        box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (clip_hull(one, window) for one in rest))
+    ]
     depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
     if depth < _SHALLOW * abs(back - front):
         return None
@@ -177,20 +165,11 @@ def _fit_fingers(
     return Place(at, np.array([depth / 2, opening, half]), axes)
 
 
-def slice_bounds(hulls: Sequence[Hull], axis: int, low: float, high: float) -> Aabb | None:
-    """Return the box around what lies between two planes across an axis, None where nothing does."""
-    found = np.concatenate([_slice_points(hull, axis, low, high) for hull in hulls])
-    return Aabb.of_points(found) if len(found) else None
-
-
-def _slice_points(hull: Hull, axis: int, low: float, high: float) -> Floats:
-    """The corners of a hull between two planes, and where its edges cross these."""
-    vertices, faces = hull.vertices, hull.faces
-    starts, ends = vertices[faces].reshape(-1, 3), vertices[np.roll(faces, -1, axis=1)].reshape(-1, 3)
-    rows = [vertices[(vertices[:, axis] >= low) & (vertices[:, axis] <= high)]]
-    for plane in (low, high):
-        before, after = starts[:, axis] - plane, ends[:, axis] - plane
-        cut = before * after < 0
-        share = before[cut] / (before[cut] - after[cut])
-        rows.append(starts[cut] + share[:, None] * (ends[cut] - starts[cut]))
-    return np.concatenate(rows)
+def slice_bounds(hulls: Sequence[Hull], window: Aabb, outward: Floats | None = None) -> Aabb | None:
+    """Return the box around what of hulls lies in a box, None where nothing does; outward: an axis (3,), of pieces along
+    it only the outermost, the bar before an opening."""
+    boxes = [box for one in hulls if (box := clip_hull(one, window))]
+    if outward is None or not boxes:
+        return Aabb.union(boxes) if boxes else None
+    boxes.sort(key=lambda box: -max(outward @ box.min, outward @ box.max))
+    return reduce(lambda one, other: Aabb.union((one, other)) if one.touches(other) else one, boxes)

@@ -1,6 +1,6 @@
 """Goals on motion: that an asset stands, and that what joints move goes through its range."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
@@ -12,7 +12,6 @@ from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, P
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.scene import Failure, Place, frame_of_axis
 from meshforge.common import require_mujoco
-from meshforge.geometry import Floats
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -22,8 +21,6 @@ from meshforge.language import (
     QuantityArgument,
 )
 from meshforge.symbolic import Hull, Joint, bits_of, split_by_contact
-
-_LONG = 0.9  # of the longest pin, from which on one says where the axis is
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,10 +76,10 @@ class Swings(Goal):
         if self.about is not None:
             assert self.axis and self.angle
             pins = subject.select(self.about)
-            axis = place_axis(pins, subject.turn_axis(self.axis), self.angle)
-            held = {hull.name for hull in (*pins, *subject.select_after(self.about))} - {hull.name for hull in moved}
-            carried = {hull.name for hull in _find_carried(subject, subject.select(self.leaf), pins)}
-            moving = [hull for hull in subject.hulls if hull in moved or hull.name in carried - held]
+            centre = np.mean([hull.shape.centroid for hull in pins], axis=0)
+            axis = Place(centre, np.array([0.0, self.angle, 0.0]), frame_of_axis(subject.turn_axis(self.axis)))
+            held = {hull.name for hull in (*pins, *subject.select_after(self.about)) if hull not in moved}
+            moving = [*moved, *(hull for hull in self._find_carried(subject, pins) if hull.name not in held)]
             rest = [hull for hull in subject.hulls if hull not in moving and hull.name not in held]
             return try_swing(moving, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
@@ -98,6 +95,21 @@ class Swings(Goal):
                 return why
         return None
 
+    def _find_carried(self, subject: GoalSubject, pins: Sequence[Hull]) -> Iterator[Hull]:
+        """What hangs on what moves, such as a handle: hulls where pieces were that touched it, without pins, all but
+        the largest piece."""
+        mesh, leaf = subject.start, subject.select(self.leaf)
+        own, held = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
+        beside = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
+        pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | held))
+        parts = [Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces]
+        largest = max((part.box.diagonal for part in parts), default=0.0)
+        hung = [
+            part for piece, part in zip(pieces, parts, strict=True) if piece & beside and part.box.diagonal < largest
+        ]
+        moved = subject.select_after(self.leaf)
+        yield from (hull for hull in subject.hulls if hull not in moved and any(part.holds(hull, 0.0) for part in hung))
+
     def _find_apart(self, subject: GoalSubject) -> frozenset[frozenset[str]]:
         """The pairs of hulls that may be in each other: what the file keeps apart, and what is to be ignored."""
         rules, hulls = ContactRules(subject.end), subject.end.hulls
@@ -107,26 +119,6 @@ class Swings(Goal):
             if i < j and (one.name in ignored or other.name in ignored or not rules.may_touch(i, j)):
                 apart.add(frozenset((one.name, other.name)))
         return frozenset(apart)
-
-
-def place_axis(pins: Sequence[Hull], axis: Floats, angle: float) -> Place:
-    """Return a hinge about an axis (3,), by so many degrees: through the middle of the longest of its pins along it."""
-    spans = [float(np.ptp(hull.vertices @ axis)) for hull in pins]
-    longest = [hull.shape.centroid for hull, span in zip(pins, spans, strict=True) if span >= _LONG * max(spans)]
-    return Place(np.mean(longest, axis=0), np.array([0.0, angle, 0.0]), frame_of_axis(axis))
-
-
-def _find_carried(subject: GoalSubject, leaf: Sequence[Hull], pins: Sequence[Hull]) -> list[Hull]:
-    """What hangs on a leaf, such as a handle: hulls after the edit where pieces were that touched it, without pins, all
-    but the largest piece. leaf, pins: as they were before."""
-    mesh = subject.start
-    own, held = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
-    beside = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
-    pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | held))
-    parts = {piece: Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces}
-    largest = max((part.box.diagonal for part in parts.values()), default=0.0)
-    hung = [part for piece, part in parts.items() if piece & beside and part.box.diagonal < largest]
-    return [hull for hull in subject.hulls if any(part.holds(hull, 0.0) for part in hung)]
 
 
 def _find_joints(subject: GoalSubject, moved: tuple[Hull, ...]) -> list[tuple[Joint, frozenset[str]]]:

@@ -54,8 +54,7 @@ class Supports(Goal):
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
         placed, clutter = [], subject.select_after(self.ignore) if self.ignore is not None else ()
-        own = {hull.name for hull in subject.select(self.surface)}
-        others = [hull for hull in subject.hulls_before if hull.name not in own]
+        others = subject.select_rest(self.surface)
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
             long, wide = box.size[:2]
@@ -66,11 +65,11 @@ class Supports(Goal):
             spots = np.array([one.spot[:2] for one in there])
             tops = rooms.measure_tops(part.hulls, spots)
             tops[np.isinf(tops) & rooms.is_over(part.hulls, spots)] = box.max[2]
-            low, lying = box.max[2] - _LOW * box.size[2], part.lower_hulls(clutter)
-            lying += [hull for hull in part.lower_hulls(others) if hull.aabb.max[2] > box.max[2] + _TALL * min(long, wide)]
+            low, high = box.max[2] - _LOW * box.size[2], box.max[2] + _TALL * min(long, wide)
+            lying = [*part.lower_hulls(clutter), *(one for one in part.lower_hulls(others) if one.aabb.max[2] > high)]
             for one, top in zip(there, tops, strict=True):
-                spot = np.array([*one.spot[:2], top])
-                room = _measure_room(spot, one.shape.aabb.size)
+                spot, half = np.array([*one.spot[:2], top]), one.shape.aabb.size / 2
+                room = Aabb(spot - half * [1, 1, 0], spot + half * [1, 1, 2])
                 if top >= low and not any(rooms.clip_hull(hull, room) for hull in lying):
                     placed.append(replace(one, spot=part.turn @ spot, axes=part.turn))
         if not placed:
@@ -121,8 +120,7 @@ class Passes(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        ways, own = dict[str, Place](), {hull.name for hull in subject.select(self.opening)}
-        others = [hull for hull in subject.hulls_before if hull.name not in own]
+        ways, others = dict[str, Place](), subject.select_rest(self.opening)
         for number, part in enumerate(subject.select_parts(self.opening), 1):
             axes = range(3) if self.way is None else [int(np.abs(part.turn.T @ subject.turn_axis(self.way)).argmax())]
             ways_along = (_find_place(subject, self.opening, part, partial(rooms.find_way, axis=axis)) for axis in axes)
@@ -152,12 +150,6 @@ def _find_place(
     after = find(near) if near else None
     is_kept = after and (before is None or np.prod(after.size) >= _KEPT * np.prod(before.size))
     return after if is_kept else before
-
-
-def _measure_room(spot: Floats, size: Floats) -> Aabb:
-    """The box that a thing of some size takes up on a surface at a spot."""
-    low = spot - size * [0.5, 0.5, 0.0]
-    return Aabb(low, low + size)
 
 
 def _measure(size: float | Share, whole: float) -> float:

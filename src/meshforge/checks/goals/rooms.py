@@ -88,17 +88,15 @@ def end_inside(way: Place, others: Sequence[Hull], outward: Floats, past: float)
     reaches beyond its ends [m].
     """
     axis = int(np.abs(way.axes[:, 0]).argmax())
-    inward = -1.0 if outward[axis] > 0 else 1.0
-    length, half = float(way.size[0]), np.abs(way.axes) @ np.array([0.0, *way.size[1:]])
+    inward, length = -float(np.copysign(1.0, outward[axis])), float(way.size[0])
+    half = np.abs(way.axes) @ np.array([0.0, *way.size[1:]])
     inner = way.at[axis] + (length if inward > 0 else 0.0)
-    ends = [inner + inward * past, inner - inward * length / 2]
     low, high = way.at - half, way.at + half
-    low[axis], high[axis] = min(ends), max(ends)
-    found = [box for one in others if (box := clip_hull(one, Aabb(low, high)))]
-    meets = [box.min[axis] - inner if inward > 0 else inner - box.max[axis] for box in found]
-    closes = any((box.max[axis] if inward > 0 else -box.min[axis]) >= inward * inner for box in found)
-    cut = past - min(meets) if closes else 0.0
-    if not 0.0 < cut < length:
+    low[axis], high[axis] = sorted((inner + inward * past, inner - inward * length / 2))
+    boxes = [box for one in others if (box := clip_hull(one, Aabb(low, high)))]
+    found = [sorted(inward * (side[axis] - inner) for side in (box.min, box.max)) for box in boxes]
+    cut = past - min((begin for begin, _ in found), default=past)
+    if not 0.0 < cut < length or all(end < 0.0 for _, end in found):
         return way
     at = way.at + (cut * np.eye(3)[axis] if inward < 0 else 0.0)
     return Place(at, np.array([length - cut, *way.size[1:]]), way.axes)
