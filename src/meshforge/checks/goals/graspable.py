@@ -46,24 +46,23 @@ class Graspable(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics.gripper import try_grasp  # lazy: MuJoCo takes 0.3 s
 
-        handles = {hull.name for hull in subject.select_after(self.handle)}
-        others = subject.select_rest(self.handle)
-        parts = subject.select_parts(self.handle)
+        parts, margin = subject.select_parts(self.handle), 2 * subject.touching
+        names, others = {hull.name for hull in subject.select_after(self.handle)}, subject.select_rest(self.handle)
         largest = max(part.volume for part in parts)
         for number, part in enumerate(parts, 1):
-            outward, hulls = part.box.center - part.turn.T @ subject.box.center, part.lower_hulls(subject.hulls)
-            there = {hull.name for hull in hulls if _is_within(hull, part)}
+            hulls, outward = part.lower_hulls(subject.hulls), part.box.center - part.turn.T @ subject.box.center
+            there = [hull for hull in hulls if _is_within(hull, part)]
             if not there and part.volume < _SMALL * largest:
                 continue
             if not there:
                 return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
-            rest = [hull for hull in hulls if hull.name not in handles | there]
-            bars: Sequence[Hull] | None = None
-            if self.grip == "behind":
-                outward = find_outward(part, part.lower_hulls(others), 2 * subject.touching)
-                bars = [hull for hull in hulls if part.holds(hull, 2 * subject.touching) or hull.name in handles]
-                rest = [hull for hull in rest if hull not in bars]
-            grips = list(find_grips(part, rest, outward, self.width, 2 * subject.touching, bars))
+            bars, behind = part.hulls, self.grip == "behind"
+            if behind:
+                outward = find_outward(part, part.lower_hulls(others), margin)
+                bars = tuple(hull for hull in hulls if part.holds(hull, margin))
+            known = {hull.name for hull in (*there, *(bars if behind else ()))} | names
+            rest = [hull for hull in hulls if hull.name not in known]
+            grips = list(find_grips(part, bars, rest, outward, self.width, margin, behind))
             if not grips:
                 return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
             first: Failure | None = None
@@ -102,29 +101,30 @@ def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
 
 def find_grips(
     part: Part,
+    bars: Sequence[Hull],
     rest: Sequence[Hull],
     outward: Floats,
     width: float | None,
     margin: float,
-    bars: Sequence[Hull] | None = None,
+    behind: bool = False,
 ) -> Iterator[Place]:
     """Yield where a gripper may take a part, in its frame, the likeliest first.
 
     Fingers close across the middle of the part, thin sides first, and come from outside of the asset, or from the side,
-    as deep as nothing else is there. rest: other hulls, in the frame of the part; outward: (3,), away from the middle
-    of the asset; width: of the opening [m], None for what it takes; margin: to keep from other hulls [m].
+    as deep as nothing else is there. bars, rest: what is gripped, and other hulls, in the frame of the part; outward:
+    (3,), away from the middle of the asset; width: of the opening [m], None for what it takes; margin: to keep from
+    other hulls [m]; behind: only with one finger inside of the outermost bar.
     """
     whole = part.box
-    sides = whole.size if bars is None else whole.size * (outward == 0.0)
-    long = int(sides.argmax())
+    long = int((whole.size * (outward == 0.0) if behind else whole.size).argmax())
     reach = _REACH * float(whole.size[long])
     rows = list[tuple[tuple[float, ...], Place]]()
-    for order, spot in enumerate(_SPOTS if bars is None else _SPOTS[:1]):
+    for order, spot in enumerate(_SPOTS[:1] if behind else _SPOTS):
         at = float(whole.min[long] + spot * whole.size[long])
         low, high = whole.min - margin, whole.max + margin
         low[long], high[long] = at - reach, at + reach
-        section = slice_bounds(bars or part.hulls, Aabb(low, high), outward if bars else None)
-        for across in (k for k in range(3) if k != long and (bars is None or outward[k] != 0.0)):
+        section = slice_bounds(bars, Aabb(low, high), outward if behind else None)
+        for across in (k for k in range(3) if k != long and not (behind and outward[k] == 0.0)):
             thick = float(section.size[across]) if section else np.inf
             if section is None or (width is not None and width <= thick):
                 continue
@@ -166,8 +166,8 @@ def _fit_fingers(
 
 
 def slice_bounds(hulls: Sequence[Hull], window: Aabb, outward: Floats | None = None) -> Aabb | None:
-    """Return the box around what of hulls lies in a box, None where nothing does; outward: an axis (3,), of pieces along
-    it only the outermost, the bar before an opening."""
+    """Return the box around what of hulls lies in a box, None where nothing does; outward: an axis (3,), of pieces
+    along it only the outermost, the bar before an opening."""
     boxes = [box for one in hulls if (box := clip_hull(one, window))]
     if outward is None or not boxes:
         return Aabb.union(boxes) if boxes else None
