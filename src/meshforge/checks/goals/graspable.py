@@ -96,7 +96,8 @@ def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
     found = [box for one in others if (box := clip_hull(one, window))]
     way = sum(((part.box.center - box.center) / part.box.size * np.prod(box.size) for box in found), np.zeros(3))
     axis = int(np.abs(way).argmax())
-    return np.copysign(np.eye(3)[axis], way[axis])
+    outward: Floats = np.copysign(np.eye(3)[axis], way[axis])
+    return outward
 
 
 def find_grips(

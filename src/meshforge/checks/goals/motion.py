@@ -113,7 +113,7 @@ class Swings(Goal):
     def _find_apart(self, subject: GoalSubject) -> frozenset[frozenset[str]]:
         """The pairs of hulls that may be in each other: what the file keeps apart, and what is to be ignored."""
         rules, hulls = ContactRules(subject.end), subject.end.hulls
-        ignored = {hull.name for hull in subject.select_after(self.ignore)} if self.ignore is not None else set()
+        ignored = {hull.name for hull in subject.select_ignored(self.ignore)}
         apart = set[frozenset[str]]()
         for (i, one), (j, other) in product(enumerate(hulls), repeat=2):
             if i < j and (one.name in ignored or other.name in ignored or not rules.may_touch(i, j)):

@@ -53,7 +53,7 @@ class Supports(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        placed, clutter = [], subject.select_after(self.ignore) if self.ignore is not None else ()
+        placed, clutter = [], subject.select_ignored(self.ignore)
         others = subject.select_rest(self.surface)
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
