@@ -6,7 +6,7 @@ from functools import reduce
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, Part
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.goals.rooms import clip_hull
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
@@ -59,6 +59,8 @@ class Graspable(Goal):
             bars, behind = part.hulls, self.grip == "behind"
             if behind:
                 outward = find_outward(part, part.lower_hulls(others), margin)
+                if not outward.any():
+                    raise NotApplicableError(f"part {number} of {self.handle} is attached to nothing")
                 bars = tuple(hull for hull in hulls if part.holds(hull, margin))
             known = {hull.name for hull in (*there, *(bars if behind else ()))} | names
             rest = [hull for hull in hulls if hull.name not in known]
@@ -91,12 +93,13 @@ def _is_within(hull: Hull, part: Part) -> bool:
 
 
 def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
-    """Return the axis (3,) that leads away from what a part is attached to; margin: at most so far from it [m]."""
+    """Return the axis (3,) that leads away from what a part is attached to, zeros where that is nothing; margin: at most
+    so far from it [m]."""
     window = Aabb(part.box.min - margin, part.box.max + margin)
     found = [box for one in others if (box := clip_hull(one, window))]
     way = sum(((part.box.center - box.center) / part.box.size * np.prod(box.size) for box in found), np.zeros(3))
     axis = int(np.abs(way).argmax())
-    outward: Floats = np.copysign(np.eye(3)[axis], way[axis])
+    outward: Floats = np.eye(3)[axis] * np.sign(way[axis])
     return outward
 
 
