@@ -195,10 +195,10 @@ class GoalSubject:
     def select_after(self, extractor: Extractor) -> tuple[Hull, ...]:
         """Return what it selects after the edit. Raises NotApplicableError where it selected nothing before."""
         self._select(extractor)
-        return self.select_ignored(extractor)
+        return self.select_any(extractor)
 
-    def select_ignored(self, extractor: Extractor | None) -> tuple[Hull, ...]:
-        """Return what a goal passes over after the edit: what an extractor selects, which may be nothing."""
+    def select_any(self, extractor: Extractor | None) -> tuple[Hull, ...]:
+        """Return what an extractor selects after the edit, which may be nothing."""
         found = bits_of(select_mask(extractor, self.end, self.extremity)) if extractor is not None else ()
         return tuple(hull for k, hull in enumerate(self.hulls) if k in found)
 

@@ -93,8 +93,8 @@ def _is_within(hull: Hull, part: Part) -> bool:
 
 
 def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
-    """Return the axis (3,) that leads away from what a part is attached to, zeros where that is nothing; margin: at most
-    so far from it [m]."""
+    """Return the axis (3,) that leads away from what a part is attached to, zeros where there is nothing; margin: so
+    far from it at most [m]."""
     window = Aabb(part.box.min - margin, part.box.max + margin)
     found = [box for one in others if (box := clip_hull(one, window))]
     way = sum(((part.box.center - box.center) / part.box.size * np.prod(box.size) for box in found), np.zeros(3))

@@ -78,9 +78,9 @@ class Swings(Goal):
             pins = subject.select(self.about)
             centre = np.mean([hull.shape.centroid for hull in pins], axis=0)
             axis = Place(centre, np.array([0.0, self.angle, 0.0]), frame_of_axis(subject.turn_axis(self.axis)))
-            held = {hull.name for hull in (*pins, *subject.select_after(self.about)) if hull not in moved}
-            moving = [*moved, *(hull for hull in self._find_carried(subject, pins) if hull.name not in held)]
-            rest = [hull for hull in subject.hulls if hull not in moving and hull.name not in held]
+            pin_names = {hull.name for hull in (*pins, *subject.select_after(self.about)) if hull not in moved}
+            moving = [*moved, *(hull for hull in self._find_attachments(subject, pins) if hull.name not in pin_names)]
+            rest = [hull for hull in subject.hulls if hull not in moving and hull.name not in pin_names]
             return try_swing(moving, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
         if not joints:
@@ -95,25 +95,27 @@ class Swings(Goal):
                 return why
         return None
 
-    def _find_carried(self, subject: GoalSubject, pins: Sequence[Hull]) -> Iterator[Hull]:
+    def _find_attachments(self, subject: GoalSubject, pins: Sequence[Hull]) -> Iterator[Hull]:
         """What hangs on what moves, such as a handle: hulls where pieces were that touched it, without pins, all but
         the largest piece."""
         mesh, leaf = subject.start, subject.select(self.leaf)
-        own, held = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
+        own, fixed = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
         beside = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
-        pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | held))
+        pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | fixed))
         parts = [Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces]
         largest = max((part.box.diagonal for part in parts), default=0.0)
-        hung = [
+        attachments = [
             part for piece, part in zip(pieces, parts, strict=True) if piece & beside and part.box.diagonal < largest
         ]
         moved = subject.select_after(self.leaf)
-        yield from (hull for hull in subject.hulls if hull not in moved and any(part.holds(hull, 0.0) for part in hung))
+        yield from (
+            hull for hull in subject.hulls if hull not in moved and any(part.holds(hull, 0.0) for part in attachments)
+        )
 
     def _find_apart(self, subject: GoalSubject) -> frozenset[frozenset[str]]:
         """The pairs of hulls that may be in each other: what the file keeps apart, and what is to be ignored."""
         rules, hulls = ContactRules(subject.end), subject.end.hulls
-        ignored = {hull.name for hull in subject.select_ignored(self.ignore)}
+        ignored = {hull.name for hull in subject.select_any(self.ignore)}
         apart = set[frozenset[str]]()
         for (i, one), (j, other) in product(enumerate(hulls), repeat=2):
             if i < j and (one.name in ignored or other.name in ignored or not rules.may_touch(i, j)):

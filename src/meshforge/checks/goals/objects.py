@@ -53,7 +53,7 @@ class Supports(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        placed, clutter = [], subject.select_ignored(self.ignore)
+        placed, clutter = [], subject.select_any(self.ignore)
         others = subject.select_rest(self.surface)
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
@@ -66,11 +66,14 @@ class Supports(Goal):
             tops = rooms.measure_tops(part.hulls, spots)
             tops[np.isinf(tops) & rooms.is_over(part.hulls, spots)] = box.max[2]
             low, high = box.max[2] - _LOW * box.size[2], box.max[2] + _TALL * min(long, wide)
-            lying = [*part.lower_hulls(clutter), *(one for one in part.lower_hulls(others) if one.aabb.max[2] > high)]
+            obstacles = [
+                *part.lower_hulls(clutter),
+                *(one for one in part.lower_hulls(others) if one.aabb.max[2] > high),
+            ]
             for one, top in zip(there, tops, strict=True):
                 spot, half = np.array([*one.spot[:2], top]), one.shape.aabb.size / 2
                 room = Aabb(spot - half * [1, 1, 0], spot + half * [1, 1, 2])
-                if top >= low and not any(rooms.clip_hull(hull, room) for hull in lying):
+                if top >= low and not any(rooms.clip_hull(hull, room) for hull in obstacles):
                     placed.append(replace(one, spot=part.turn @ spot, axes=part.turn))
         if not placed:
             raise NotApplicableError(f"{self.surface} has no surface to put things on")
