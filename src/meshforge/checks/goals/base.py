@@ -248,13 +248,13 @@ def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
         if not subject.end.hulls:
             return GoalResult(str(goal), "failed", "no hull is left")
         level = subject.level if goal.on_level else subject
+        back = Pose(subject.turn @ level.turn.T, np.zeros(3))
         with blame(goal.plugin):
             failure = goal.find_failure(level)
-        if failure is None:
-            return GoalResult(str(goal), "passed")
-        back = Pose(subject.turn @ level.turn.T, np.zeros(3))
-        objects = tuple(one.move(back) for one in failure.objects)
-        return GoalResult(str(goal), "failed", failure.text, failure.hulls, objects)
+            if failure is None:
+                return GoalResult(str(goal), "passed")
+            objects = tuple(one.move(back) for one in failure.objects)
+            return GoalResult(str(goal), "failed", failure.text, failure.hulls, objects)
     except NotApplicableError as error:
         return GoalResult(str(goal), "untried", error.problem)
     except ProgramError:
