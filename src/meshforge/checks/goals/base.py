@@ -83,11 +83,6 @@ class Part:
         """The box around its hulls."""
         return Aabb.union(hull.aabb for hull in self.hulls)
 
-    @property
-    def volume(self) -> float:
-        """The volume of its hulls [m^3]."""
-        return sum(hull.volume for hull in self.hulls)
-
     def holds(self, hull: Hull, margin: float) -> bool:
         """Whether the middle of a hull, in its frame, lies in the box around its hulls or so near to it [m]."""
         at = hull.shape.centroid

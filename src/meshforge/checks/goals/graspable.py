@@ -48,11 +48,11 @@ class Graspable(Goal):
 
         parts, margin = subject.select_parts(self.handle), 2 * subject.touching
         names, others = {hull.name for hull in subject.select_after(self.handle)}, subject.select_rest(self.handle)
-        largest = max(part.volume for part in parts)
-        for number, part in enumerate(parts, 1):
+        volumes = [sum(hull.volume for hull in part.hulls) for part in parts]
+        for number, (part, volume) in enumerate(zip(parts, volumes, strict=True), 1):
             hulls, outward = part.lower_hulls(subject.hulls), part.box.center - part.turn.T @ subject.box.center
             there = [hull for hull in hulls if _is_within(hull, part)]
-            if not there and part.volume < _SMALL * largest:
+            if not there and volume < _SMALL * max(volumes):
                 continue
             if not there:
                 return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
@@ -109,14 +109,14 @@ def find_grips(
     rest: Sequence[Hull],
     outward: Floats,
     width: float | None,
-    margin: float,
-    behind: bool = False,
+    gap: float,
+    behind: bool,
 ) -> Iterator[Place]:
     """Yield where a gripper may take a part, in its frame, the likeliest first.
 
     Fingers close across the middle of the part, thin sides first, and come from outside of the asset, or from the side,
     as deep as nothing else is there. bars, rest: what is gripped, and other hulls, in the frame of the part; outward:
-    (3,), away from the middle of the asset; width: of the opening [m], None for what it takes; margin: to keep from
+    (3,), away from the middle of the asset; width: of the opening [m], None for what it takes; gap: to keep from
     other hulls [m]; behind: only with one finger inside of the outermost bar.
     """
     whole = part.box
@@ -125,7 +125,7 @@ def find_grips(
     rows = list[tuple[tuple[float, ...], Place]]()
     for order, spot in enumerate(_SPOTS[:1] if behind else _SPOTS):
         at = float(whole.min[long] + spot * whole.size[long])
-        low, high = whole.min - margin, whole.max + margin
+        low, high = whole.min - gap, whole.max + gap
         low[long], high[long] = at - reach, at + reach
         section = slice_bounds(bars, Aabb(low, high), outward if behind else None)
         for across in (k for k in range(3) if k != long and not (behind and outward[k] == 0.0)):
@@ -137,7 +137,7 @@ def find_grips(
                 for side in (1.0, -1.0):
                     inward = side * np.eye(3)[axis]
                     half = reach if axis != long else float(section.size[3 - axis - across]) / 2
-                    grip = _fit_fingers(section, rest, inward, across, opening / 2, half, margin)
+                    grip = _fit_fingers(section, rest, inward, across, opening / 2, half, gap)
                     if grip:
                         is_inside = bool(inward @ outward > 0) or axis == long
                         rows.append(((is_inside, order, thick, float(inward @ outward)), grip))
@@ -156,9 +156,8 @@ def _fit_fingers(
     window = Aabb(section.center - reach, section.center + reach)
     side = float(inward[axis])
     front, back = (section.min[axis], section.max[axis]) if side > 0 else (section.max[axis], section.min[axis])
-    ends = [
-        box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (clip_hull(one, window) for one in rest))
-    ]
+    boxes = [box for one in rest if (box := clip_hull(one, window))]
+    ends = [box.min[axis] if side > 0 else box.max[axis] for box in boxes]
     depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
     if depth < _SHALLOW * abs(back - front):
         return None

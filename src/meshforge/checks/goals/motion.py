@@ -100,17 +100,13 @@ class Swings(Goal):
         the largest piece."""
         mesh, leaf = subject.start, subject.select(self.leaf)
         own, fixed = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
-        beside = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
+        near = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
         pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | fixed))
-        parts = [Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces]
-        largest = max((part.box.diagonal for part in parts), default=0.0)
-        attachments = [
-            part for piece, part in zip(pieces, parts, strict=True) if piece & beside and part.box.diagonal < largest
-        ]
+        parts = {piece: Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces}
+        largest = max((part.box.diagonal for part in parts.values()), default=0.0)
+        beside = [part for piece, part in parts.items() if piece & near and part.box.diagonal < largest]
         moved = subject.select_after(self.leaf)
-        yield from (
-            hull for hull in subject.hulls if hull not in moved and any(part.holds(hull, 0.0) for part in attachments)
-        )
+        yield from (hull for hull in subject.hulls if hull not in moved and any(one.holds(hull, 0.0) for one in beside))
 
     def _find_apart(self, subject: GoalSubject) -> frozenset[frozenset[str]]:
         """The pairs of hulls that may be in each other: what the file keeps apart, and what is to be ignored."""
