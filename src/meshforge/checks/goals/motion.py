@@ -12,6 +12,7 @@ from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, P
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.scene import Failure, Place, frame_of_axis
 from meshforge.common import require_mujoco
+from meshforge.geometry import Aabb
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -21,6 +22,8 @@ from meshforge.language import (
     QuantityArgument,
 )
 from meshforge.symbolic import Hull, Joint, bits_of, split_by_contact
+
+_SMALL = 0.5  # of the diagonal of what moves, below which what touches it alone hangs on it
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,15 +99,14 @@ class Swings(Goal):
         return None
 
     def _find_attachments(self, subject: GoalSubject, pins: Sequence[Hull]) -> Iterator[Hull]:
-        """What hangs on what moves, such as a handle: hulls where pieces were that touched it, without pins, all but
-        the largest piece."""
+        """What hangs on what moves, such as a handle: hulls where small pieces were that touched it, without pins."""
         mesh, leaf = subject.start, subject.select(self.leaf)
         own, fixed = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
         near = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
-        pieces = split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | fixed))
-        parts = {piece: Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces}
-        largest = max((part.box.diagonal for part in parts.values()), default=0.0)
-        beside = [part for piece, part in parts.items() if piece & near and part.box.diagonal < largest]
+        pieces = [one for one in split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | fixed)) if one & near]
+        parts = [Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces]
+        most = _SMALL * Aabb.union(hull.aabb for hull in leaf).diagonal
+        beside = [part for part in parts if part.box.diagonal < most]
         moved = subject.select_after(self.leaf)
         yield from (hull for hull in subject.hulls if hull not in moved and any(one.holds(hull, 0.0) for one in beside))
 
