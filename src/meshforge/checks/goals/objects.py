@@ -46,7 +46,11 @@ class Supports(Goal):
     )
     ignore: Extractor | None = field(
         default=None,
-        metadata={"argument": OptionArgument("ignore", ExtractorArgument()), "title": "Where nothing is put"},
+        metadata={
+            "argument": OptionArgument("ignore", ExtractorArgument()),
+            "title": "Where nothing is put",
+            "omitted": "nowhere",
+        },
     )
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
