@@ -24,6 +24,8 @@ GOALS: Mapping[str, Mapping[str, str]] = tomllib.loads(Path(__file__).with_name(
 _KINDS = ("stands", "supports", "contains", "graspable", "passes", "swings")
 _SEED = REPORTED[0]  # of generated assets the medium decomposition, of real ones the pieces that they have
 _MOST_LISTED = 20
+_WRITTEN_AGAIN = ("cup-", "door-", "table-")
+"""Families of which goals were written again after results were known."""
 Row = dict[str, Any]
 
 
@@ -33,9 +35,10 @@ def measure(tell: Tell, quick: bool) -> Result:
     units = [(name, which) for name in names for which in ("reference", "wrong")]
     rows = [row for found in run_units("goals", try_task, units, tell) for row in found]
     kinds = [kind for kind in _KINDS if any(row["kind"] == kind for row in rows)]
-    tried = [row for row in rows if row["outcome"] in ("passed", "failed")]
     count = sum(len(own) - ("orient" in own) for own in GOALS.values())
-    same = 100 * sum(map(_agrees, tried)) / max(len(tried), 1)
+    groups = {"written again": [row for row in rows if row["task"].startswith(_WRITTEN_AGAIN)]}
+    groups["as first written"] = [row for row in rows if not row["task"].startswith(_WRITTEN_AGAIN)]
+    same, same_of_first = map(_share_same, (rows, groups["as first written"]))
     return Result(
         "goals",
         "Goals and criteria",
@@ -43,18 +46,30 @@ def measure(tell: Tell, quick: bool) -> Result:
             Table("By goal", _COLUMNS, tuple(_count_by(rows, "kind", kinds))),
             Table("By task", _COLUMNS, tuple(_count_by(rows, "task", names))),
             Table(
+                "Families whose goals were written again, and others",
+                _COLUMNS,
+                tuple(_count(*group) for group in groups.items()),
+            ),
+            Table(
                 "Where they differ most",
                 ("task", "goal", "verdicts", "such as", "edit", "criterion", "goal"),
                 tuple(_list_differences(rows)),
             ),
         ),
-        (Goal("goals that say what the criterion says, where they could be tried, %", "at least", 90.0, same),),
+        (
+            Goal("goals that say what the criterion says, where they could be tried, %", "at least", 90.0, same),
+            Goal("the same on families whose goals are as first written, %", "at least", 90.0, same_of_first),
+        ),
         (
             "A criterion knows the true parts and where a thing is to lie. A goal has an extractor alone and finds the "
             "place on the asset before the edit. What is tried there is one implementation, in `checks/physics`: when "
             "it moved out of the benchmark, none of 1,545 verdicts on the same places changed.",
             f"{count} goals of {len(GOALS)} tasks, written from what tasks say before any was tried: "
-            "`benchmark/checks/goals.toml`, which names the criteria that no goal says.",
+            "`benchmark/checks/goals.toml`, which names the criteria that no goal says. Seven of cup, door and table "
+            "were written again after that, two of them since their doors open to the other side, five with options "
+            "that goals did not have; as first written these say the same in 75% of their families and in 84% of all.",
+            "Of the others, kettles, lamps and chairs are not unseen: that openings end at a body, that what is tall "
+            "bounds a surface, and that small parts may go was found on them.",
             "*Unedited* meshes are those before the reference. What makes it fall: places that are found "
             "elsewhere than a person means, labels that miss a part, defaults that ask for more or less than they do.",
         ),
@@ -87,6 +102,11 @@ def try_task(name: str, which: str) -> list[Row]:
                     what = {"task": name, "kind": checks[site]["kind"], "site": site, "mesh": found.asset, "edit": edit}
                     rows.append(what | {"criterion": failure, "outcome": result.outcome, "why": result.why})
     return rows
+
+
+def _share_same(rows: Sequence[Row]) -> float:
+    tried = [row for row in rows if row["outcome"] in ("passed", "failed")]
+    return 100 * sum(map(_agrees, tried)) / max(len(tried), 1)
 
 
 def _agrees(row: Row) -> bool:

@@ -40,7 +40,7 @@ def test_a_form_comes_to_a_goal_or_to_the_reason_why_not(tmp_path: Path) -> None
     project = applied(tmp_path)
     with opened(tmp_path, project.folder) as studio:
         forms = {form["name"]: form for form in studio.settled()["language"]["goals"]}
-        assert [one["omitted"] for one in forms["supports"]["arguments"]] == ["", "10%"]
+        assert [one["omitted"] for one in forms["supports"]["arguments"]] == ["", "10%", "nowhere"]
 
         def check(name: str, **arguments: str) -> dict[str, Any]:
             return ok(studio.post("/api/goal/check", {"name": name, "arguments": arguments}))

@@ -28,7 +28,7 @@ from meshforge.symbolic import Asset, Surface, SymbolicMesh, transfer_labels
 
 GOAL_EXECUTION = ExecutionOptions(timeout=60.0)
 """Seconds for all goals of one asset, by default."""
-_FORM = 2  # counts the changes of what goals try
+_FORM = 3  # counts the changes of what goals try
 _MOST_KEPT = 16  # results of earlier states of an asset
 _PICTURE = (640, 480)
 _COLORS = {"at fault": "#D64545", "tried": "#E0A030"}

@@ -55,7 +55,7 @@ def find_other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
 
 def _score(mesh: SymbolicMesh, directions: Floats) -> Floats:
     """How much of the hulls' faces is level or plumb (n,) if each of some directions (n, 3) points up."""
-    normals, areas = _face_normals(mesh)
+    normals, areas = face_normals(mesh)
     shares = areas / (areas.sum() or 1.0)
     lean = _to_degrees(np.abs(directions @ normals.T))
     level, plumb = (np.exp(-((angle / _SOFT) ** 2)) @ shares for angle in (lean, 90.0 - lean))
@@ -106,8 +106,8 @@ def _flat_sides(mesh: SymbolicMesh) -> Floats:
     return np.array([*found, *(-side for side in found)]).reshape(-1, 3)
 
 
-def _face_normals(mesh: SymbolicMesh) -> tuple[Floats, Floats]:
-    """Unit normals (n, 3) and areas (n,) of all triangles of all hulls that have one."""
+def face_normals(mesh: SymbolicMesh) -> tuple[Floats, Floats]:
+    """Return unit normals (n, 3) and areas (n,) of all triangles of all hulls that have one."""
     corners = [hull.vertices[hull.faces] for hull in mesh.hulls]
     triangles = np.concatenate(corners) if corners else np.zeros((0, 3, 3))
     across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])

@@ -240,7 +240,7 @@ class QuantityArgument(ArgumentType):
             return None
         number = text.rstrip("%" + "".join(UNITS))
         unit = text[len(number) :]
-        value = float(number) * (0.01 if unit == "%" else UNITS[unit or self._unit])
+        value = float(number) / 100 if unit == "%" else float(number) * UNITS[unit or self._unit]
         suits = bool(self._of) if unit == "%" else _LIKE.get(unit, unit or self._unit) == self._unit
         found = Share(value) if unit == "%" else value
         return found if suits and self.fits(found) else None

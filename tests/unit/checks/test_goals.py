@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -105,6 +105,17 @@ def test_a_goal_sees_the_asset_as_its_program_turns_it() -> None:
     for program, wanted in ((Program(), "failed"), (Program.parse(f"orient {UPRIGHT}\n"), "passed")):
         subject = GoalSubject.of(leaning, leaning, program)
         assert try_goal(parse_goal("stands"), subject).outcome == wanted
+
+
+def test_level_faces_correct_what_landmarks_say_is_up() -> None:
+    legs = {"leg 8": [[-0.36, -0.2, 0.0], [-0.28, 0.2, 0.7]], "leg 9": [[0.32, -0.2, 0.0], [0.4, 0.2, 0.7]]}
+    mesh = Scene.of(TABLE["scene"]["table_with_a_vase"] | {"new": legs}, 1.0, 0.0).after
+    subject = GoalSubject.of(mesh, mesh, Program.parse(f"orient {UPRIGHT}\n"))
+    leaning = replace(subject, by_landmarks=False)
+    assert [try_goal(parse_goal("stands"), one).outcome for one in (leaning, subject)] == ["failed", "passed"]
+    found = try_goal(parse_goal("supports(Is(top))"), subject)
+    vase = next(hull for hull in subject.hulls if hull.name in found.hulls)
+    assert found.objects[0].aabb.intersects(vase.aabb)
 
 
 @pytest.mark.parametrize("scale", [0.001, 1000.0])

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, NoReturn, Self
+from typing import Any, ClassVar, Literal, NoReturn, Self
 
 import numpy as np
 
@@ -14,12 +14,16 @@ from meshforge.checks.base import LEAST_SIZE, MOST_SIZE
 from meshforge.checks.physics.scene import TOLERANCE, Failure, Place
 from meshforge.common import MeshForgeError, ProgramError, blame, describe_error
 from meshforge.geometry import Aabb, Floats, Pose, Shape, rotation_about
-from meshforge.label_model.describe import find_upright_rotation
+from meshforge.label_model.describe import face_normals, find_upright_rotation, rotation_to_z
 from meshforge.language import EXTREMITY, Extractor, Operation, Program, Replay, labels_of, select_mask
 from meshforge.language.arguments import MissingOperation
 from meshforge.language.extractors.base import rename_in_extractor
 from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import Hull, Surface, SymbolicMesh, bits_of, split_by_contact
+
+_LEANS = (10.0, 5.0, 2.0, 1.0)
+"""Degrees, that level faces are off at most, from what landmarks say is up, then from their mean."""
+_LEVEL = 0.1  # of the area of all faces, that these have at least
 
 GoalOutcome = Literal["passed", "failed", "untried", "broken"]
 
@@ -32,6 +36,8 @@ class Goal(Operation, ABC):
     """What an asset must do after its edit: a frozen dataclass as all operations, written with a small letter."""
 
     __slots__ = ()
+    on_level: ClassVar[bool] = False
+    """Whether its subject is `level`, as for things that must not roll or lean."""
 
     @classmethod
     def word(cls) -> str:
@@ -77,6 +83,11 @@ class Part:
         """The box around its hulls."""
         return Aabb.union(hull.aabb for hull in self.hulls)
 
+    def holds(self, hull: Hull, margin: float) -> bool:
+        """Whether the middle of a hull, in its frame, lies in the box around its hulls or so near to it [m]."""
+        at = hull.shape.centroid
+        return bool((self.box.min - margin <= at).all() and (at <= self.box.max + margin).all())
+
     def lower(self, surfaces: Sequence[Surface]) -> list[Surface]:
         """Return surfaces in its frame."""
         return [replace(one, vertices=one.vertices @ self.turn) for one in surfaces]
@@ -96,7 +107,7 @@ class GoalSubject:
     """An asset as it stands, Z up [m], before and after its edit.
 
     start, end: the same in the frame of the program, in which extractors select; turn, upright: the rotations (3, 3)
-    upright_T_program and upright_T_file; extremity: see `select`.
+    upright_T_program and upright_T_file; extremity: of extractors; by_landmarks: whether what is up comes from these.
     """
 
     start: SymbolicMesh
@@ -104,6 +115,7 @@ class GoalSubject:
     turn: Floats
     upright: Floats
     extremity: float = EXTREMITY
+    by_landmarks: bool = False
 
     @classmethod
     def of(cls, before: SymbolicMesh, after: SymbolicMesh, program: Program) -> Self:
@@ -114,7 +126,23 @@ class GoalSubject:
         end = replace(end, epsilon=replay.start.epsilon, scale=replay.start.scale)
         upright = find_upright_rotation(before, program.orient)
         turn = upright @ replay.pose.rotation.T
-        return cls(replay.start, end, turn, upright, EXTREMITY if program.extremity is None else program.extremity)
+        extremity = EXTREMITY if program.extremity is None else program.extremity
+        return cls(replay.start, end, turn, upright, extremity, bool(program.orient and program.orient.names_z))
+
+    @cached_property
+    def level(self) -> GoalSubject:
+        """The same, its level faces level, such as seats, tops and feet: centres of landmarks are a few degrees off."""
+        normals, areas = face_normals(self.start)
+        ways, up = normals @ self.turn.T, np.eye(3)[2]
+        ways *= np.sign(ways[:, 2:])
+        for lean in _LEANS:
+            near = ways @ up > np.cos(np.radians(lean))
+            if not self.by_landmarks or areas[near].sum() < _LEVEL * areas.sum():
+                return self
+            up = areas[near] @ ways[near]
+            up /= np.linalg.norm(up)
+        lower = rotation_to_z(up)
+        return replace(self, turn=lower @ self.turn, upright=lower @ self.upright, by_landmarks=False)
 
     @property
     def touching(self) -> float:
@@ -162,8 +190,17 @@ class GoalSubject:
     def select_after(self, extractor: Extractor) -> tuple[Hull, ...]:
         """Return what it selects after the edit. Raises NotApplicableError where it selected nothing before."""
         self._select(extractor)
-        found = bits_of(select_mask(extractor, self.end, self.extremity))
+        return self.select_any(extractor)
+
+    def select_any(self, extractor: Extractor | None) -> tuple[Hull, ...]:
+        """Return what an extractor selects after the edit, which may be nothing."""
+        found = bits_of(select_mask(extractor, self.end, self.extremity)) if extractor is not None else ()
         return tuple(hull for k, hull in enumerate(self.hulls) if k in found)
+
+    def select_rest(self, extractor: Extractor) -> list[Hull]:
+        """Return all else before the edit."""
+        names = {hull.name for hull in self.select(extractor)}
+        return [hull for hull in self.hulls_before if hull.name not in names]
 
     def turn_axis(self, direction: str) -> Floats:
         """Return the axis (3,) of a direction of the program's frame."""
@@ -205,11 +242,14 @@ def try_goal(goal: Goal, subject: GoalSubject) -> GoalResult:
             raise NotApplicableError(f"it is {size:.3g} m large; goals are tried on {LEAST_SIZE:g} to {MOST_SIZE:g} m")
         if not subject.end.hulls:
             return GoalResult(str(goal), "failed", "no hull is left")
+        level = subject.level if goal.on_level else subject
+        back = Pose(subject.turn @ level.turn.T, np.zeros(3))
         with blame(goal.plugin):
-            failure = goal.find_failure(subject)
+            failure = goal.find_failure(level)
             if failure is None:
                 return GoalResult(str(goal), "passed")
-            return GoalResult(str(goal), "failed", failure.text, failure.hulls, failure.objects)
+            objects = tuple(one.move(back) for one in failure.objects)
+            return GoalResult(str(goal), "failed", failure.text, failure.hulls, objects)
     except NotApplicableError as error:
         return GoalResult(str(goal), "untried", error.problem)
     except ProgramError:

@@ -2,17 +2,19 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, Part
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
+from meshforge.checks.goals.rooms import clip_hull
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
 from meshforge.geometry import Aabb, Floats
 from meshforge.language import Extractor, ExtractorArgument, OptionArgument, QuantityArgument, WordArgument
 from meshforge.symbolic import Hull
 
-_PULLS = ("back", "up")
+_PULLS, _GRIPS = ("back", "up"), ("any", "behind")
 _OPEN = 1.4  # of what is between the fingers, how far they are open
 _ROOM = 1.5  # of half the opening, that open fingers take up to each side
 _SPOTS = (0.5, 0.3, 0.7)
@@ -20,6 +22,7 @@ _SPOTS = (0.5, 0.3, 0.7)
 _REACH = 0.2  # of the length of a bar, half the height of fingers
 _MOST_TRIED = 6
 _CORE = 0.5  # of the size of a hull, within which something must be left of it
+_SMALL = 0.1  # of the volume of the largest part: one that is smaller may be gone, such as a wire
 _SHALLOW = 0.2  # of a bar, that fingers reach over at least
 
 
@@ -37,19 +40,31 @@ class Graspable(Goal):
         },
     )
     pull: str = field(default="back", metadata={"argument": OptionArgument("pull", WordArgument(_PULLS))})
+    grip: str = field(default="any", metadata={"argument": OptionArgument("grip", WordArgument(_GRIPS))})
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
         from meshforge.checks.physics.gripper import try_grasp  # lazy: MuJoCo takes 0.3 s
 
-        handles = {hull.name for hull in subject.select_after(self.handle)}
-        for number, part in enumerate(subject.select_parts(self.handle), 1):
-            outward, hulls = part.box.center - part.turn.T @ subject.box.center, part.lower_hulls(subject.hulls)
-            there = {hull.name for hull in hulls if _is_within(hull, part)}
+        parts, margin = subject.select_parts(self.handle), 2 * subject.touching
+        names, others = {hull.name for hull in subject.select_after(self.handle)}, subject.select_rest(self.handle)
+        volumes = [sum(hull.volume for hull in part.hulls) for part in parts]
+        for number, (part, volume) in enumerate(zip(parts, volumes, strict=True), 1):
+            hulls, outward = part.lower_hulls(subject.hulls), part.box.center - part.turn.T @ subject.box.center
+            there = [hull for hull in hulls if _is_within(hull, part)]
+            if not there and volume < _SMALL * max(volumes):
+                continue
             if not there:
                 return Failure(f"part {number}: nothing is left where it was", tuple(hull.name for hull in part.hulls))
-            rest = [hull for hull in hulls if hull.name not in handles | there]
-            grips = list(find_grips(part, rest, outward, self.width, 2 * subject.touching))
+            bars, behind = part.hulls, self.grip == "behind"
+            if behind:
+                outward = find_outward(part, part.lower_hulls(others), margin)
+                if not outward.any():
+                    raise NotApplicableError(f"part {number} of {self.handle} is attached to nothing")
+                bars = tuple(hull for hull in hulls if part.holds(hull, margin))
+            known = {hull.name for hull in (*there, *(bars if behind else ()))} | names
+            rest = [hull for hull in hulls if hull.name not in known]
+            grips = list(find_grips(part, bars, rest, outward, self.width, margin, behind))
             if not grips:
                 return Failure(f"part {number}: {self._describe_lack(part)}", tuple(hull.name for hull in part.hulls))
             first: Failure | None = None
@@ -74,26 +89,46 @@ class Graspable(Goal):
 def _is_within(hull: Hull, part: Part) -> bool:
     """Whether a hull is in the middle of one that a part is made of."""
     reach = [(box.center, _CORE * box.size / 2) for box in (one.aabb for one in part.hulls)]
-    return any(_clip(hull, Aabb(middle - half, middle + half)) for middle, half in reach)
+    return any(clip_hull(hull, Aabb(middle - half, middle + half)) for middle, half in reach)
+
+
+def find_outward(part: Part, others: Sequence[Hull], margin: float) -> Floats:
+    """Return the axis (3,) that leads away from what a part is attached to, zeros where there is nothing; margin: so
+    far from it at most [m]."""
+    window = Aabb(part.box.min - margin, part.box.max + margin)
+    found = [box for one in others if (box := clip_hull(one, window))]
+    way = sum(((part.box.center - box.center) / part.box.size * np.prod(box.size) for box in found), np.zeros(3))
+    axis = int(np.abs(way).argmax())
+    outward: Floats = np.eye(3)[axis] * np.sign(way[axis])
+    return outward
 
 
 def find_grips(
-    part: Part, rest: Sequence[Hull], outward: Floats, width: float | None, margin: float
+    part: Part,
+    bars: Sequence[Hull],
+    rest: Sequence[Hull],
+    outward: Floats,
+    width: float | None,
+    gap: float,
+    behind: bool,
 ) -> Iterator[Place]:
     """Yield where a gripper may take a part, in its frame, the likeliest first.
 
     Fingers close across the middle of the part, thin sides first, and come from outside of the asset, or from the side,
-    as deep as nothing else is there. rest: other hulls, in the frame of the part; outward: (3,), away from the middle
-    of the asset; width: of the opening [m], None for what it takes; margin: to keep from other hulls [m].
+    as deep as nothing else is there. bars, rest: what is gripped, and other hulls, in the frame of the part; outward:
+    (3,), away from the middle of the asset; width: of the opening [m], None for what it takes; gap: to keep from
+    other hulls [m]; behind: only with one finger inside of the outermost bar.
     """
     whole = part.box
-    long = int(whole.size.argmax())
+    long = int((whole.size * (outward == 0.0) if behind else whole.size).argmax())
     reach = _REACH * float(whole.size[long])
     rows = list[tuple[tuple[float, ...], Place]]()
-    for order, spot in enumerate(_SPOTS):
+    for order, spot in enumerate(_SPOTS[:1] if behind else _SPOTS):
         at = float(whole.min[long] + spot * whole.size[long])
-        section = slice_bounds(part.hulls, long, at - reach, at + reach)
-        for across in (k for k in range(3) if k != long):
+        low, high = whole.min - gap, whole.max + gap
+        low[long], high[long] = at - reach, at + reach
+        section = slice_bounds(bars, Aabb(low, high), outward if behind else None)
+        for across in (k for k in range(3) if k != long and not (behind and outward[k] == 0.0)):
             thick = float(section.size[across]) if section else np.inf
             if section is None or (width is not None and width <= thick):
                 continue
@@ -102,7 +137,7 @@ def find_grips(
                 for side in (1.0, -1.0):
                     inward = side * np.eye(3)[axis]
                     half = reach if axis != long else float(section.size[3 - axis - across]) / 2
-                    grip = _fit_fingers(section, rest, inward, across, opening / 2, half, margin)
+                    grip = _fit_fingers(section, rest, inward, across, opening / 2, half, gap)
                     if grip:
                         is_inside = bool(inward @ outward > 0) or axis == long
                         rows.append(((is_inside, order, thick, float(inward @ outward)), grip))
@@ -121,7 +156,8 @@ def _fit_fingers(
     window = Aabb(section.center - reach, section.center + reach)
     side = float(inward[axis])
     front, back = (section.min[axis], section.max[axis]) if side > 0 else (section.max[axis], section.min[axis])
-    ends = [box.min[axis] if side > 0 else box.max[axis] for box in filter(None, (_clip(one, window) for one in rest))]
+    boxes = [box for one in rest if (box := clip_hull(one, window))]
+    ends = [box.min[axis] if side > 0 else box.max[axis] for box in boxes]
     depth = min([side * (end - front) - margin for end in ends], default=abs(back - front))
     if depth < _SHALLOW * abs(back - front):
         return None
@@ -132,32 +168,11 @@ def _fit_fingers(
     return Place(at, np.array([depth / 2, opening, half]), axes)
 
 
-def _clip(hull: Hull, window: Aabb) -> Aabb | None:
-    """The box around what of a hull lies in a box."""
-    from manifold3d import Manifold  # lazy: few commands need it
-
-    if (hull.aabb.min > window.max).any() or (hull.aabb.max < window.min).any():
-        return None
-    room = Manifold.cube(window.size.tolist(), center=True).translate(window.center.tolist())
-    inside = Manifold.hull_points(hull.vertices) ^ room
-    box = inside.bounding_box()
-    return None if inside.is_empty() else Aabb(box[:3], box[3:])
-
-
-def slice_bounds(hulls: Sequence[Hull], axis: int, low: float, high: float) -> Aabb | None:
-    """Return the box around what lies between two planes across an axis, None where nothing does."""
-    found = np.concatenate([_slice_points(hull, axis, low, high) for hull in hulls])
-    return Aabb.of_points(found) if len(found) else None
-
-
-def _slice_points(hull: Hull, axis: int, low: float, high: float) -> Floats:
-    """The corners of a hull between two planes, and where its edges cross these."""
-    vertices, faces = hull.vertices, hull.faces
-    starts, ends = vertices[faces].reshape(-1, 3), vertices[np.roll(faces, -1, axis=1)].reshape(-1, 3)
-    rows = [vertices[(vertices[:, axis] >= low) & (vertices[:, axis] <= high)]]
-    for plane in (low, high):
-        before, after = starts[:, axis] - plane, ends[:, axis] - plane
-        cut = before * after < 0
-        share = before[cut] / (before[cut] - after[cut])
-        rows.append(starts[cut] + share[:, None] * (ends[cut] - starts[cut]))
-    return np.concatenate(rows)
+def slice_bounds(hulls: Sequence[Hull], window: Aabb, outward: Floats | None = None) -> Aabb | None:
+    """Return the box around what of hulls lies in a box, None where nothing does; outward: an axis (3,), of pieces
+    along it only the outermost, the bar before an opening."""
+    boxes = [box for one in hulls if (box := clip_hull(one, window))]
+    if outward is None or not boxes:
+        return Aabb.union(boxes) if boxes else None
+    boxes.sort(key=lambda box: -max(outward @ box.min, outward @ box.max))
+    return reduce(lambda one, other: Aabb.union((one, other)) if one.touches(other) else one, boxes)

@@ -1,14 +1,18 @@
 """Goals on motion: that an asset stands, and that what joints move goes through its range."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import product
+from operator import or_
 
 import numpy as np
 
-from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError
+from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.scene import Failure, Place, frame_of_axis
 from meshforge.common import require_mujoco
+from meshforge.geometry import Aabb
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -17,12 +21,16 @@ from meshforge.language import (
     OptionArgument,
     QuantityArgument,
 )
-from meshforge.symbolic import Hull, Joint
+from meshforge.symbolic import Hull, Joint, bits_of, split_by_contact
+
+_SMALL = 0.5  # of the diagonal of what moves, below which what touches it alone hangs on it
 
 
 @dataclass(frozen=True, slots=True)
 class Stands(Goal):
     """Dropped from 1 cm as one rigid body, leaning a little, it ends upright and at rest."""
+
+    on_level = True
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
@@ -70,11 +78,13 @@ class Swings(Goal):
             return Failure(f"nothing of {self.leaf} is left")
         if self.about is not None:
             assert self.axis and self.angle
-            centre = np.mean([hull.shape.centroid for hull in subject.select(self.about)], axis=0)
+            pins = subject.select(self.about)
+            centre = np.mean([hull.shape.centroid for hull in pins], axis=0)
             axis = Place(centre, np.array([0.0, self.angle, 0.0]), frame_of_axis(subject.turn_axis(self.axis)))
-            names = {hull.name for hull in moved}
-            rest = [hull for hull in subject.hulls if hull.name not in names]
-            return try_swing(moved, rest, axis, subject.touching, "hinge", self._find_apart(subject))
+            pin_names = {hull.name for hull in (*pins, *subject.select_after(self.about)) if hull not in moved}
+            moving = [*moved, *(hull for hull in self._find_attachments(subject, pins) if hull.name not in pin_names)]
+            rest = [hull for hull in subject.hulls if hull not in moving and hull.name not in pin_names]
+            return try_swing(moving, rest, axis, subject.touching, "hinge", self._find_apart(subject))
         joints = _find_joints(subject, moved)
         if not joints:
             raise NotApplicableError(f"no joint moves {self.leaf}; give about, axis and angle")
@@ -88,10 +98,22 @@ class Swings(Goal):
                 return why
         return None
 
+    def _find_attachments(self, subject: GoalSubject, pins: Sequence[Hull]) -> Iterator[Hull]:
+        """What hangs on what moves, such as a handle: hulls where small pieces were that touched it, without pins."""
+        mesh, leaf = subject.start, subject.select(self.leaf)
+        own, fixed = (sum(1 << mesh.index[hull.name] for hull in hulls) for hulls in (leaf, pins))
+        near = reduce(or_, (mesh.adjacency[k] for k in bits_of(own)))
+        pieces = [one for one in split_by_contact(mesh, (1 << len(mesh.hulls)) - 1 & ~(own | fixed)) if one & near]
+        parts = [Part(tuple(subject.hulls_before[k] for k in bits_of(piece)), np.eye(3)) for piece in pieces]
+        most = _SMALL * Aabb.union(hull.aabb for hull in leaf).diagonal
+        beside = [part for part in parts if part.box.diagonal < most]
+        moved = subject.select_after(self.leaf)
+        yield from (hull for hull in subject.hulls if hull not in moved and any(one.holds(hull, 0.0) for one in beside))
+
     def _find_apart(self, subject: GoalSubject) -> frozenset[frozenset[str]]:
         """The pairs of hulls that may be in each other: what the file keeps apart, and what is to be ignored."""
         rules, hulls = ContactRules(subject.end), subject.end.hulls
-        ignored = {hull.name for hull in subject.select_after(self.ignore)} if self.ignore is not None else set()
+        ignored = {hull.name for hull in subject.select_any(self.ignore)}
         apart = set[frozenset[str]]()
         for (i, one), (j, other) in product(enumerate(hulls), repeat=2):
             if i < j and (one.name in ignored or other.name in ignored or not rules.may_touch(i, j)):

@@ -10,7 +10,7 @@ from meshforge.checks.goals import rooms
 from meshforge.checks.goals.base import Goal, GoalSubject, NotApplicableError, Part
 from meshforge.checks.physics.scene import Failure, Place, mm
 from meshforge.common import require_mujoco
-from meshforge.geometry import Box, Floats, Pose
+from meshforge.geometry import Aabb, Box, Floats, Pose
 from meshforge.language import (
     Direction,
     DirectionArgument,
@@ -26,6 +26,7 @@ from meshforge.symbolic import Hull
 _SHAPES, _PROBES = ("box", "sphere", "cylinder"), ("box", "sphere")
 _MIDDLE = 0.4  # of each side of a surface, that things are put within on both sides of its middle
 _KEPT = 0.5  # of a room or an opening before the edit, from which on it counts as it is after it
+_TALL = 0.5  # of the shorter side of a surface: what rises above it by more bounds it, such as the back of a seat
 _LOW = 0.2  # of the height of a part, by which a spot may lie lower than its top
 
 
@@ -37,16 +38,27 @@ def _size(of: str) -> OptionArgument:
 class Supports(Goal):
     """Boxes and balls that are put onto each part of a selection stay there."""
 
+    on_level = True
+
     surface: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What carries"})
     size: float | Share = field(
         default=Share(0.1), metadata={"argument": _size("its shorter side"), "title": "Size of the balls"}
+    )
+    ignore: Extractor | None = field(
+        default=None,
+        metadata={
+            "argument": OptionArgument("ignore", ExtractorArgument()),
+            "title": "Where nothing is put",
+            "omitted": "nowhere",
+        },
     )
 
     def find_failure(self, subject: GoalSubject) -> Failure | None:
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        placed = []
+        placed, clutter = [], subject.select_any(self.ignore)
+        others = subject.select_rest(self.surface)
         for number, part in enumerate(subject.select_parts(self.surface), 1):
             box = part.box
             long, wide = box.size[:2]
@@ -54,13 +66,19 @@ class Supports(Goal):
             at = np.array([*box.center[:2], box.max[2]])
             surface = Place(at, np.array([_MIDDLE * long, _MIDDLE * wide, radius]), np.eye(3))
             there = objects.objects_on(f"surface {number}", surface)
-            tops = rooms.measure_tops(part.hulls, np.array([one.spot[:2] for one in there]))
-            low = box.max[2] - _LOW * box.size[2]
-            placed += [
-                replace(one, spot=part.turn @ np.array([*one.spot[:2], top]), axes=part.turn)
-                for one, top in zip(there, tops, strict=True)
-                if top >= low
+            spots = np.array([one.spot[:2] for one in there])
+            tops = rooms.measure_tops(part.hulls, spots)
+            tops[np.isinf(tops) & rooms.is_over(part.hulls, spots)] = box.max[2]
+            low, high = box.max[2] - _LOW * box.size[2], box.max[2] + _TALL * min(long, wide)
+            obstacles = [
+                *part.lower_hulls(clutter),
+                *(one for one in part.lower_hulls(others) if one.aabb.max[2] > high),
             ]
+            for one, top in zip(there, tops, strict=True):
+                spot, half = np.array([*one.spot[:2], top]), one.shape.aabb.size / 2
+                room = Aabb(spot - half * [1, 1, 0], spot + half * [1, 1, 2])
+                if top >= low and not any(rooms.clip_hull(hull, room) for hull in obstacles):
+                    placed.append(replace(one, spot=part.turn @ spot, axes=part.turn))
         if not placed:
             raise NotApplicableError(f"{self.surface} has no surface to put things on")
         return objects.try_support(subject.hulls, placed, subject.touching)
@@ -109,7 +127,7 @@ class Passes(Goal):
         require_mujoco("a goal")
         from meshforge.checks.physics import objects  # lazy: MuJoCo takes 0.3 s
 
-        ways = dict[str, Place]()
+        ways, others = dict[str, Place](), subject.select_rest(self.opening)
         for number, part in enumerate(subject.select_parts(self.opening), 1):
             axes = range(3) if self.way is None else [int(np.abs(part.turn.T @ subject.turn_axis(self.way)).argmax())]
             ways_along = (_find_place(subject, self.opening, part, partial(rooms.find_way, axis=axis)) for axis in axes)
@@ -119,8 +137,12 @@ class Passes(Goal):
             way = max(found, key=lambda one: float(one.size[1] * one.size[2]))
             if too_large := _find_excess(self.size, way.size[1:], "opening", f"opening {number}", part.lift(way)):
                 return too_large
-            size = np.array([way.size[0], *_half_sizes(self.size, way.size[1:])])
-            ways[f"opening {number}"] = part.lift(replace(way, size=size))
+            half = _half_sizes(self.size, way.size[1:])
+            half = half if self.shape == "box" else np.full(2, half.min())
+            past = subject.touching + (0.0 if self.shape == "box" else float(half.min()))
+            way = replace(way, size=np.array([way.size[0], *half]))
+            outward = part.box.center - part.turn.T @ subject.box.center
+            ways[f"opening {number}"] = part.lift(rooms.end_inside(way, part.lower_hulls(others), outward, past))
         if not ways:
             raise NotApplicableError(f"{self.opening} leaves no opening{f' along {self.way}' if self.way else ''}")
         return objects.try_pass(subject.hulls, ways, self.shape, subject.touching)  # type: ignore[arg-type]  # one of its words
@@ -131,8 +153,7 @@ def _find_place(
 ) -> Place | None:
     """What `find` finds in a part: after the edit, unless that is much less than before it."""
     before, hulls = find(part.hulls), part.lower_hulls(subject.select_after(extractor))
-    low, high = part.box.min - subject.touching, part.box.max + subject.touching
-    near = [hull for hull in hulls if (low <= hull.shape.centroid).all() and (hull.shape.centroid <= high).all()]
+    near = [hull for hull in hulls if part.holds(hull, subject.touching)]
     after = find(near) if near else None
     is_kept = after and (before is None or np.prod(after.size) >= _KEPT * np.prod(before.size))
     return after if is_kept else before

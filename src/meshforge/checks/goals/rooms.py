@@ -17,7 +17,7 @@ from meshforge.checks.grid import (
 from meshforge.checks.physics.scene import Place
 from meshforge.checks.surface_samples import join_corners
 from meshforge.common import GeometryError
-from meshforge.geometry import Aabb, Floats, Polytope, convex_hull
+from meshforge.geometry import Aabb, Bools, Floats, Polytope, convex_hull
 from meshforge.symbolic import Hull, Surface
 
 _NEAR = 2.0  # cells, that what is shown may be away from the hulls of a part
@@ -31,6 +31,14 @@ def measure_tops(hulls: Sequence[Hull], places: Floats) -> Floats:
         low, high = heights_at(hull.shape, places)
         tops = np.where(low <= high, np.maximum(tops, high), tops)
     return tops
+
+
+def is_over(hulls: Sequence[Hull], places: Floats) -> Bools:
+    """Return which places (n, 2) are over hulls, or over a gap between them: (n,)."""
+    whole = _hull_around(hulls)
+    low, high = heights_at(whole, places) if whole else (np.ones(len(places)), np.zeros(len(places)))
+    over: Bools = low <= high
+    return over
 
 
 def find_room(hulls: Sequence[Hull], surfaces: Sequence[Surface]) -> Place | None:
@@ -71,6 +79,39 @@ def find_way(hulls: Sequence[Hull], axis: int) -> Place | None:
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
     at[axis] = whole.aabb.min[axis]
     return Place(at, np.array([whole.aabb.size[axis], *box.size[others]]), axes)
+
+
+def end_inside(way: Place, others: Sequence[Hull], outward: Floats, past: float) -> Place:
+    """Return a way up to where its inner half meets what closes its inner end, such as the body behind a spout.
+
+    others: hulls that may do so, in the frame of the way; outward: (3,), towards its outer end; past: how far a probe
+    reaches beyond its ends [m].
+    """
+    axis = int(np.abs(way.axes[:, 0]).argmax())
+    inward, length = -float(np.copysign(1.0, outward[axis])), float(way.size[0])
+    half = np.abs(way.axes) @ np.array([0.0, *way.size[1:]])
+    inner = way.at[axis] + (length if inward > 0 else 0.0)
+    low, high = way.at - half, way.at + half
+    low[axis], high[axis] = sorted((inner + inward * past, inner - inward * length / 2))
+    boxes = [box for one in others if (box := clip_hull(one, Aabb(low, high)))]
+    found = [sorted(inward * (side[axis] - inner) for side in (box.min, box.max)) for box in boxes]
+    cut = past - min((begin for begin, _ in found), default=past)
+    if not 0.0 < cut < length or all(end < 0.0 for _, end in found):
+        return way
+    at = way.at + (cut * np.eye(3)[axis] if inward < 0 else 0.0)
+    return Place(at, np.array([length - cut, *way.size[1:]]), way.axes)
+
+
+def clip_hull(hull: Hull, window: Aabb) -> Aabb | None:
+    """Return the box around what of a hull lies in a box, None where nothing does."""
+    from manifold3d import Manifold  # lazy: few commands need it
+
+    if (hull.aabb.min > window.max).any() or (hull.aabb.max < window.min).any():
+        return None
+    room = Manifold.cube(window.size.tolist(), center=True).translate(window.center.tolist())
+    inside = Manifold.hull_points(hull.vertices) ^ room
+    box = inside.bounding_box()
+    return None if inside.is_empty() else Aabb(box[:3], box[3:])
 
 
 def _hull_around(hulls: Sequence[Hull]) -> Polytope | None:
