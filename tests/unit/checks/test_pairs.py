@@ -53,7 +53,8 @@ def contacts(path: Path) -> set[tuple[str, str]]:
     model = mujoco.MjModel.from_xml_path(str(path))
     data, found = mujoco.MjData(model), set[tuple[str, str]]()
     for joint in range(model.njnt):
-        for at in np.linspace(*model.jnt_range[joint].tolist(), 40):
+        low, high = model.jnt_range[joint].tolist()
+        for at in np.linspace(low, high, 40):
             data.qpos[:] = 0
             data.qpos[joint] = at
             mujoco.mj_fwdPosition(model, data)
