@@ -163,12 +163,22 @@ class FitCheck(MeasureCheck):
 
 
 def _find_bodies_without_hulls(mesh: SymbolicMesh) -> Iterator[Finding]:
-    """Bodies that show something, where nothing collides of them nor of what they are welded to; other bodies have
-    hulls."""
+    """Bodies without hulls that show something far off the hulls of what they are welded to; other bodies have some."""
     rigid, visuals = JointTree.of(mesh).rigid_roots(), mesh.asset.visuals if mesh.asset and mesh.hulls else ()
-    solid = {rigid[hull.body] for hull in mesh.hulls}
-    shown = {one.body for one in visuals if one.body and len(one.faces)}
-    if bare := sorted(body for body in shown if rigid.get(body, body) not in solid):
+    solid = {hull.body for hull in mesh.hulls}
+    shown = {one.body for one in visuals if one.body and len(one.faces)} - solid
+    spacing, bare = (
+        _SPACING * grid_around(Aabb.union(hull.aabb for hull in mesh.hulls)).cell if shown else 0.0,
+        list[str](),
+    )
+    for body in sorted(shown):
+        hulls = [hull for hull in mesh.hulls if rigid[hull.body] == rigid.get(body, body)]
+        points = SurfaceIndex(join_corners([one for one in visuals if one.body == body]), spacing).points
+        off = points[~_is_inside(points, hulls)]
+        surface = SurfaceIndex(np.concatenate([h.vertices[h.faces] for h in hulls]), spacing) if hulls else None
+        if surface is None or (len(off) and surface.distances(off)[0].max() > LEAST_GAP_SHARE * mesh.diagonal):
+            bare.append(body)
+    if bare:
         message = f"nothing collides of what these bodies show: {join_names(bare)}"
         yield Finding("fit-no-hulls", "warning", (), message, "Make hulls of what they show: meshforge prepare.")
 

@@ -108,8 +108,8 @@ def test_the_command_line_writes_mended_files_and_leaves_the_input(run: Run) -> 
 @pytest.mark.parametrize(
     ("words", "problem"),
     [
-        (("--fix",), "--fix needs --engine or --max-vertices, and --out"),
-        (("--fix", "--out", "out"), "--fix needs --engine or --max-vertices, and --out"),
+        (("--fix",), "--fix needs --engine, --max-vertices or --exclude, and --out"),
+        (("--fix", "--out", "out"), "--fix needs --engine, --max-vertices or --exclude, and --out"),
         (("--engine", "unreal", "--out", "out"), "--out says nothing without --fix"),
         (("--engine", "unreal", "--tolerance", "1"), "--tolerance says nothing without --fix"),
     ],

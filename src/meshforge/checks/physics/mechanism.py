@@ -145,8 +145,8 @@ def _number_pairs(pairs: tuple[tuple[str, str], ...], sources: list[str]) -> Ite
             yield frozenset((first, second))
 
 
-LIGHTEST, HEAVIEST = 5.0, 25_000.0
-"""Densities [kg/m^3] beyond which a mass is doubted: below any foam, and above osmium."""
+LIGHTEST, HEAVIEST = 5.0, 9_000.0
+"""Densities [kg/m^3] beyond which a mass is doubted: below any foam, and above copper."""
 OFF = 10.0
 """Inertias that differ by more than this factor from those of the hulls are doubted."""
 _ROUNDING = 1e-4  # of inertias that are written with few digits

@@ -2,6 +2,7 @@
 that touch nothing of it."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from meshforge import geometry
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, explain_untried, place_joint
 from meshforge.checks.physics.model import FLOOR, compile_model, pose_on_floor
 from meshforge.checks.physics.scene import Motion, Place, Touch, mm
-from meshforge.common import join_names
+from meshforge.common import GeometryError, join_names
 from meshforge.engines import Finding, Severity
 from meshforge.symbolic import Hull, Joint, SymbolicMesh, contact_graph
 
@@ -143,17 +144,18 @@ def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[F
 def check_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> Iterator[Finding]:
     """Yield an error on pieces of bodies that float, a warning on those that are nearer to what they touch nothing of.
 
-    Not on those of bodies that are fixed to the world, nor of assets with non-convex pieces, which may be between them,
-    nor of formats in which all is one body because nothing else is said.
+    Not on those of bodies that are fixed to the world, nor of formats in which all is one body because nothing else is
+    said. Non-convex pieces may be between them: they count as their convex hulls.
     """
-    if mesh.asset is not None and (mesh.asset.non_convex or mesh.asset.format in ("gltf", *WITHOUT_BODIES)):
+    if mesh.asset is not None and mesh.asset.format in ("gltf", *WITHOUT_BODIES):
         return
     rigid, left = tree.rigid_roots(), set[str]()
-    graph = contact_graph([hull.shape for hull in mesh.hulls], FLOATING * mesh.diagonal)
+    hulls = [*mesh.hulls, *_enclose_pieces(mesh)]
+    graph = contact_graph([hull.shape for hull in hulls], FLOATING * mesh.diagonal)
     kinds: tuple[tuple[Severity, float], ...] = (("error", FLOATING), ("warning", LOOSE))
     for severity, reach in kinds:
         pairs = [pair for pair, gap in graph.items() if gap <= reach * mesh.diagonal]
-        alone = [(body, part) for body, part in _list_small_parts(mesh, rigid, pairs) if body != "world"]
+        alone = [(body, part) for body, part in _list_small_parts(hulls, rigid, pairs) if body != "world"]
         texts = [f"{join_names(part, 3)} of {body}" for body, part in alone if not left & {*part}]
         names = tuple(name for _, part in alone for name in part if not left & {*part})
         if texts:
@@ -162,23 +164,29 @@ def check_loose_pieces(mesh: SymbolicMesh, tree: JointTree) -> Iterator[Finding]
         left |= {*names}
 
 
+def _enclose_pieces(mesh: SymbolicMesh) -> Iterator[Hull]:
+    """Hulls around the non-convex pieces of a mesh that are no planes and span a volume."""
+    for piece in mesh.asset.non_convex if mesh.asset else ():
+        if piece.surface is not None and piece.plane is None:
+            with suppress(GeometryError):
+                yield Hull(piece.name, piece.body, geometry.convex_hull(piece.surface.vertices, name=piece.name))
+
+
 def _list_small_parts(
-    mesh: SymbolicMesh, rigid: Mapping[str, str], pairs: Sequence[tuple[int, int]]
+    hulls: Sequence[Hull], rigid: Mapping[str, str], pairs: Sequence[tuple[int, int]]
 ) -> Iterator[tuple[str, list[str]]]:
     """Rigid groups of bodies, and the names of hulls that hang together by pairs, without the largest part of each."""
-    part = {k: [k] for k in range(len(mesh.hulls))}
+    part = {k: [k] for k in range(len(hulls))}
     for first, second in pairs:
-        if rigid[mesh.hulls[first].body] == rigid[mesh.hulls[second].body] and part[first] is not part[second]:
+        if rigid[hulls[first].body] == rigid[hulls[second].body] and part[first] is not part[second]:
             part[first] += part[second]
             part |= dict.fromkeys(part[second], part[first])
-    found = sorted(
-        {id(one): one for one in part.values()}.values(), key=lambda one: -sum(mesh.hulls[k].volume for k in one)
-    )
+    found = sorted({id(one): one for one in part.values()}.values(), key=lambda one: -sum(hulls[k].volume for k in one))
     seen = set[str]()
     for one in found:
-        body = rigid[mesh.hulls[one[0]].body]
+        body = rigid[hulls[one[0]].body]
         if body in seen:
-            yield body, [mesh.hulls[k].name for k in one]
+            yield body, [hulls[k].name for k in one]
         seen.add(body)
 
 

@@ -34,8 +34,8 @@ JITTER = 0.005
 """Of the speed of a fall from the asset's own height, the share that counts as jitter at rest."""
 APART = 0.05
 """Of the diagonal: a free body that moves farther from the heaviest one has come off."""
-TILT = 15.0
-"""Degrees from which on an asset has fallen over."""
+TILT, LEAN = 15.0, 5.0
+"""Degrees from which on an asset has fallen over, and from which on it leans."""
 HULLS = 1000
 """Hulls of an asset at most; beyond, a simulation would take minutes."""
 BODIES = 500
@@ -227,3 +227,6 @@ def _report_unrest(found: Physics) -> Iterator[Finding]:
         message = f"it does not stand: it turned by {rest.tilt:.0f}°"
         severity: Severity = "warning" if rest.may_lie else "error"
         yield Finding("physics-tilt", severity, (), message, "Give it a flat base; or it is not meant to stand.")
+    elif rest.tilt > LEAN:
+        message = f"it leans: it turned by {rest.tilt:.0f}° until it came to rest"
+        yield Finding("physics-tilt", "warning", (), message, "Give it a flat base; or it is not meant to stand.")
