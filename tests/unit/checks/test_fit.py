@@ -8,11 +8,11 @@ import pytest
 
 from meshforge.checks.fit import FitCheck, draw_fit, measure_fit
 from meshforge.checks.legality import find_oddities
-from meshforge.geometry import Floats, Shape
+from meshforge.geometry import Floats, Pose, Shape
 from meshforge.rendering import LengthUnit
 from meshforge.rendering.colors import HullColors, LegendEntry
-from meshforge.symbolic import Hull, SymbolicMesh
-from tests.cups import BOTTOM, WALLS, WHOLE, cup
+from meshforge.symbolic import Body, Hull, Joint, SymbolicMesh
+from tests.cups import BOTTOM, WALLS, WHOLE, cup, surface
 from tests.unit.language.scenes import box
 
 
@@ -61,6 +61,19 @@ def test_a_body_that_shows_something_without_hulls_is_named(bodies: list[str], b
     shown = replace(mesh, asset=replace(mesh.asset, visuals=tuple(visuals)))
     found = [one.message for one in FitCheck().examine(shown, None) if one.rule == "fit-no-hulls"]
     assert found == [f"nothing collides of what these bodies show: {name}" for name in bare]
+
+
+@pytest.mark.parametrize(("height", "bare"), [(0.0, False), (0.5, True)])
+def test_a_body_without_hulls_is_named_beside_what_it_is_welded_to_where_that_does_not_cover_it(
+    height: float, bare: bool
+) -> None:
+    weld = Joint("", "fixed", "cup", "lid", np.zeros(3), np.array([1.0, 0.0, 0.0]), None)
+    mesh = cup(box([0, 0, 0], [1, 1, 1]), joints=[weld], shown=())
+    assert mesh.asset
+    lid = surface([box([0, 0, height], [1, 1, 1 + height])], "lid")
+    bodies = (*mesh.asset.bodies, Body("lid", Pose.identity()))
+    shown = replace(mesh, asset=replace(mesh.asset, bodies=bodies, visuals=(lid,)))
+    assert ("fit-no-hulls" in [one.rule for one in FitCheck().examine(shown, None)]) is bare
 
 
 def test_nothing_shown_is_told_not_an_error() -> None:

@@ -62,6 +62,13 @@ def test_a_tall_needle_on_its_tip_falls_over() -> None:
     assert "physics-tilt" in [f.rule for f in found.findings]
 
 
+def test_what_leans_a_little_is_doubtful() -> None:
+    tray, foot = box([0, 0, 0.1], [1, 1, 0.2]), box([0, 0, 0], [0.2, 1, 0.1])
+    found = simulate(cup(tray, foot, shown=()))
+    assert found.rest is not None and 5 < found.rest.tilt < 15
+    assert [(one.rule, one.severity) for one in found.findings] == [("physics-tilt", "warning")]
+
+
 def test_bodies_that_start_within_each_other_are_told_and_thrown() -> None:
     first, second = box([0, 0, 0], [1, 1, 1]), box([0.6, 0, 0], [1.6, 1, 1])
     found = simulate(cup(first, second, bodies=["one", "two"], shown=()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,8 @@ from hypothesis import strategies as st
 
 from meshforge.checks.physics.simulation import simulate
 from meshforge.geometry import Pose, Shape
-from meshforge.symbolic import Joint, JointKind, SymbolicMesh
-from tests.cups import cup
+from meshforge.symbolic import Joint, JointKind, NonConvexPiece, SymbolicMesh
+from tests.cups import cup, surface
 from tests.mjcf_engines import asset
 from tests.unit.cli.in_process import Run
 from tests.unit.language.scenes import box
@@ -135,6 +136,15 @@ def test_a_piece_that_touches_nothing_is_found_whatever_the_gap(gap: float) -> N
     severity = None if share <= 0.0199 else "warning" if 0.0201 < share < 0.0499 else "error" if share > 0.0501 else "?"
     told = found(mesh).get("physics-loose", (None, ()))[0]
     assert severity in (told, "?")
+
+
+def test_a_piece_floats_beside_an_opaque_one_too_and_not_where_that_is_between() -> None:
+    for wide, loose in ((0.3, True), (2.0, False)):
+        mesh = cup(CARCASS, box([1.6, 0, 0], [1.9, 1, 1]), shown=())
+        assert mesh.asset
+        piece = NonConvexPiece("arch", "cup", "not convex", surface([box([1, 0, 0], [1 + wide, 1, 0.2])]))
+        mesh = replace(mesh, asset=replace(mesh.asset, non_convex=(piece,)))
+        assert found(mesh).get("physics-loose") == (("error", ("h1",)) if loose else None)
 
 
 def test_strict_counts_warnings_and_without_it_only_errors_do(run: Run) -> None:
