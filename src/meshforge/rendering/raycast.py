@@ -125,7 +125,7 @@ def find_steps(hits: RayHits, camera: Camera) -> Any:
     return steps
 
 
-def neighbour_slices(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
-    """Return the pixels that have one `step` further along an axis, and those."""
-    first, second, whole = slice(None, -step), slice(step, None), slice(None)
+def neighbour_slices(axis: int) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+    """Return the pixels that have one further along an axis, and those."""
+    first, second, whole = slice(None, -1), slice(1, None), slice(None)
     return ((first, whole), (second, whole)) if axis == 0 else ((whole, first), (whole, second))

@@ -1,4 +1,4 @@
-"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines, no shadows, for speed."""
+"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines."""
 
 from __future__ import annotations
 
