@@ -188,15 +188,6 @@ async def get_check_pictures(
     return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part, unit))
 
 
-@router.get("/api/checked/picture")
-def get_check_picture(session: CurrentSession, asset: str, name: str, v: str) -> Response:
-    """Return one of these pictures; v: the digest on the card."""
-    session.check_assets(asset)
-    if not (v.isalnum() and v.isascii() and name.replace("-", "").isalpha() and name.isascii()):
-        raise NotHereError("there is no such picture", where=asset)
-    return Response(session.checks.read_picture(asset, v, name), media_type="image/png", headers=_CACHE_FOREVER)
-
-
 async def _wait_while_connected(request: Request, future: Future[Result]) -> Result:
     """The result of some work, which is stopped where nobody waits for it any more."""
     waiting = wrap_future(future)
