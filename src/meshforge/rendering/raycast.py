@@ -24,7 +24,6 @@ class DrawLayer:
 
     render_meshes: Sequence[RenderMesh]
     colors: Floats
-    solid: bool = True
     before: float = 1.0
     behind: float = 0.0
     hatched: frozenset[int] = frozenset()
