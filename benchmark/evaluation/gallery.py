@@ -14,7 +14,7 @@ from benchmark.journal import JOURNALS, ROOT, run_units
 from benchmark.report import Result, Table, Tell
 from benchmark.tasks import EditResult, Task, task, tasks
 from meshforge.common import write_atomically
-from meshforge.rendering import encode_webp, render
+from meshforge.rendering import render
 from meshforge.rendering.comparison import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 
@@ -101,7 +101,7 @@ def _cells(one: Task, sample: Sample, folder: Path, pictures: list[str]) -> Iter
                        vocabulary=one.program.labels)  # fmt: skip
         path = folder / "pictures" / f"{one.name}-{sample.name}-{k}.webp"
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, encode_webp(image))
+        image.save(path, "WEBP", quality=82, alpha_quality=90, method=2)
         pictures.append(path.name)
         told = escape(f"{sample.name} ({sample.asset.kind}), {len(mesh.hulls)} hulls" if not k else _rule(one, k))
         verdict = _verdict(why[0]) if not k else _verdict(why[1]) if k == len(shown) - 1 else ""

@@ -63,4 +63,3 @@ def test_a_check_that_cannot_be_made_says_why(tmp_path: Path) -> None:
         assert {line["asset"]: line["status"] for line in job["lines"]} == {CUP: "failed", BARE: "done"}
         assert "1 could not be checked" in job["message"]
         assert studio.get("/api/checked", asset="no.urdf", part="fit").status_code == 404
-        assert studio.get("/api/checked/picture", asset=CUP, name="../../x", v="a").status_code == 404

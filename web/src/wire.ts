@@ -755,11 +755,11 @@ export interface CheckJob {
   goal?: string | null;
 }
 /**
- * A picture. name: the one that its address takes; text: what it shows.
+ * A picture. text: what it shows; source: itself, as an address `data:…`.
  */
 export interface CheckPicture {
-  name: string;
   text: string;
+  source: string;
 }
 /**
  * The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what

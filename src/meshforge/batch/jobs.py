@@ -20,7 +20,6 @@ from meshforge.batch.provenance import (
     template_digests,
     value_digest,
 )
-from meshforge.batch.workers import GIB, MIB
 from meshforge.common import Plugin, ProgramError, UsageError, pluralize
 from meshforge.symbolic import LabelFile, read_classes, read_labels
 
@@ -196,16 +195,8 @@ def _find_template(name: str, folders: Sequence[Path]) -> Path:
 
 
 def describe_jobs(jobs: Sequence[AssetJob]) -> str:
-    """Return how many assets there are of what, without reading them: `3 assets (3 OBJ; 0.2 MiB), 2 with labels`."""
+    """Return how many assets there are of what, without reading them: `3 assets (3 OBJ), 2 with labels`."""
     suffixes = (job.path.suffix.lower().lstrip(".").upper() or "folder" for job in jobs)
     kinds = ", ".join(f"{number:,} {kind}" for kind, number in Counter(suffixes).most_common())
-    size, labelled = sum(_size_on_disk(job.path) for job in jobs), sum(bool(job.labels or job.classes) for job in jobs)
-    shown = f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
-    return f"{pluralize(len(jobs), 'asset')} ({kinds}; {shown}), {labelled:,} with labels"
-
-
-def _size_on_disk(path: Path) -> int:
-    try:
-        return sum(entry.stat().st_size for entry in path.iterdir()) if path.is_dir() else path.stat().st_size
-    except OSError:
-        return 0
+    labelled = sum(bool(job.labels or job.classes) for job in jobs)
+    return f"{pluralize(len(jobs), 'asset')} ({kinds}), {labelled:,} with labels"

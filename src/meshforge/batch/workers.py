@@ -39,7 +39,6 @@ _BARREN_POOLS = 2  # so many in a row that give nothing are the last
 _POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
 _BY_COMMAND = "MESHFORGE_WORKERS"  # an environment variable, for it is the same in all processes of a command
 MIB = 1 << 20
-GIB = 1 << 30
 
 
 @dataclass(frozen=True, slots=True)

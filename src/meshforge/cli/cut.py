@@ -1,7 +1,6 @@
 """`meshforge cut`: one hull of an asset made two along a plane, before any program sees it."""
 
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -45,7 +44,7 @@ def cut(given: CutArguments) -> None:
     hull = given.hull
     if is_number(hull):
         (hull,) = find_hulls(hull, project.mesh(asset).index, "HULL", f"{LISTING} --project {given.project}")
-    result = project.cut(asset, hull, _parse_vector(given.at, "--at"), _parse_direction(given.across, "--across"))
+    result = project.cut(asset, hull, _parse_vector(given.at, "--at"), _parse_vector(given.across, "--across"))
     print_results(project, [result], given.json)
 
 
@@ -54,13 +53,4 @@ def _parse_vector(text: str, option: str) -> tuple[float, float, float]:
         x, y, z = map(float, text.split(","))
     except ValueError:
         raise UsageError(f"{option} {text}: three numbers are needed, with commas between") from None
-    if not all(map(isfinite, (x, y, z))):
-        raise UsageError(f"{option} {text}: three numbers are needed that are finite")
     return x, y, z
-
-
-def _parse_direction(text: str, option: str) -> tuple[float, float, float]:
-    vector = _parse_vector(text, option)
-    if not any(vector):
-        raise UsageError(f"{option} {text}: a direction is needed, so one of the numbers is not zero")
-    return vector

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import typer
 
@@ -49,25 +49,23 @@ def render(given: RenderArguments) -> None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE.png.")
     rendering.check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
-    views, size = _parse_views(given.views), _parse_pixels(given.size)
+    size = _parse_pixels(given.size)
+    views = cast(list[rendering.View], [name.strip() for name in given.views.split(",")])  # which are checked below
     with progress(None, "drawing"):
         inspection.render(
-            mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
+            mesh,
+            given.out,
+            views=views,
+            color_by=given.color_by,
+            size=size,
+            ghost=given.ghost,
+            names=given.names,
         )
     remark(f"wrote {escape_name(str(given.out))}")
 
 
-def _parse_views(text: str) -> list[rendering.View]:
-    known: dict[str, rendering.View] = {view: view for view in rendering.VIEWS}
-    names = [name.strip() for name in text.split(",")]
-    for name in names:
-        if name not in known:
-            raise UsageError(f"there is no view {name!r}", remedy=f"Views: {', '.join(rendering.VIEWS)}.")
-    return [known[name] for name in names]
-
-
 def _parse_pixels(text: str) -> tuple[int, int]:
     width, cross, height = text.lower().partition("x")
-    if not (cross and width.isdigit() and height.isdigit() and 16 <= int(width) <= 8192 and 16 <= int(height) <= 8192):
+    if not (cross and width.isdecimal() and height.isdecimal()):
         raise UsageError(f"--size {text} is not a size", remedy="Give it as WIDTHxHEIGHT, for example 900x700.")
     return int(width), int(height)

@@ -3,7 +3,7 @@
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -60,11 +60,11 @@ def review(given: ReviewArguments) -> None:
     if given.list_answers:
         _print_answers(project, given.project, given.json)
         return
-    replies = [replace(reply, by=given.by) for reply in read_replies(given.answers)] if given.answers else []
+    replies = read_replies(given.answers) if given.answers else ()
     if given.again:
         project.ask_again()
     session = ReviewSession(project, given.min_confidence)
-    missed = session.reply_to_all(replies)
+    missed = session.reply_to_all(replies, given.by)
     asks = not (given.json or given.answers) and sys.stdin.isatty() and sys.stdout.isatty()
     if asks:
         session.converse(given.by)

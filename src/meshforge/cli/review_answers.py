@@ -1,17 +1,18 @@
 """Questions of a review and replies to them, as text: what is asked, how one replies, replies from a file and from the
-line that a person types, and what they contradict."""
+line that a person types."""
 
 import json
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from codecs import BOM_UTF8
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from meshforge.common import UsageError, join_names, pluralize
-from meshforge.signoff import Assessment, HullPlace, ReviewQuestion, ReviewReply, ReviewState
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, TypeAdapter, ValidationError
+
+from meshforge.common import UsageError, first_validation_error, join_names, pluralize
+from meshforge.signoff import Assessment, HullPlace, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import NO
-from meshforge.symbolic import HUMAN_SOURCES
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
@@ -67,84 +68,55 @@ _FORM = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class ScriptReply:
-    """A reply of a file. number: its place there, from 1; choice: an id, or a number from 0."""
+def _check_choice(choice: Any) -> Any:
+    if isinstance(choice, bool) or not isinstance(choice, str | int | None):
+        raise ValueError("expected the id of a choice, a number from 0, or null")
+    return choice
 
-    number: int
-    question: str
-    choice: str | int | None = None
-    exceptions: Mapping[HullPlace, str] = field(default_factory=dict)
-    selections: Mapping[int, frozenset[str]] = field(default_factory=dict)
-    labels: Mapping[str, str] = field(default_factory=dict)
+
+class ScriptReply(BaseModel):
+    """A reply of a file. choice: an id, or a number from 0; exceptions: labels by `ASSET#HULL`; selections: names of
+    hulls by the numbers of rules; labels: by hull."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    id: str
+    choice: Annotated[str | int | None, PlainValidator(_check_choice)] = None
+    exceptions: dict[Annotated[str, Field(pattern="#")], str] = {}
+    selections: dict[Annotated[str, Field(pattern="^[0-9]+$")], frozenset[str]] = {}
+    labels: dict[str, str] = {}
     later: bool = False
-    by: str | None = None
 
     def find(self, found: Assessment) -> ReviewQuestion | None:
         """Return the question that it replies to, if it is asked now."""
-        return next((one for one in found.questions if one.id == self.question), None)
+        return next((one for one in found.questions if one.id == self.id), None)
 
     def to_reply(self, question: ReviewQuestion) -> ReviewReply:
         """Return the reply. Raises UsageError for a choice that there is not."""
         choice = self.choice
         if isinstance(choice, int):
             if not 0 <= choice < len(question.choices):
-                problem = f"reply {self.number}: question {question.id} has {len(question.choices)} choices"
+                problem = f"there is no choice {choice}: question {question.id} has {len(question.choices)} choices"
                 raise UsageError(problem, remedy="Name one by its id, or count them from 0.")
             choice = question.choices[choice].id
-        return ReviewReply(
-            self.question, choice, self.exceptions, self.selections, self.labels, later=self.later, by=self.by
-        )
+        places = ((place.rpartition("#"), label) for place, label in self.exceptions.items())
+        exceptions = {HullPlace(asset, hull): label for (asset, _, hull), label in places}
+        selections = {int(rule): hulls for rule, hulls in self.selections.items()}
+        return ReviewReply(self.id, choice, exceptions, selections, self.labels, later=self.later)
 
 
-def read_replies(path: Path) -> list[ScriptReply]:
-    """Return replies from a file. Raises UsageError, naming the entry and the field, where it is not what it should
-    be."""
+_REPLIES = TypeAdapter(tuple[ScriptReply, ...])
+
+
+def read_replies(path: Path) -> tuple[ScriptReply, ...]:
+    """Return replies from a file. Raises UsageError, naming the entry, from 0, and the field, where it is not what it
+    should be."""
     try:
-        rows = json.loads(path.read_text("utf-8-sig"))
-    except (OSError, UnicodeDecodeError) as error:
-        why = "they are not UTF-8 text" if isinstance(error, UnicodeDecodeError) else error.strerror
-        raise UsageError(f"the replies cannot be read: {why}", where=str(path)) from error
-    except (ValueError, RecursionError) as error:
-        raise UsageError("this is no JSON", where=str(path), remedy=_FORM) from error
-    if not isinstance(rows, list):
-        raise UsageError("this is no list of replies", where=str(path), remedy=_FORM)
-    try:
-        return [_to_reply(number, row) for number, row in enumerate(rows, 1)]
-    except ValueError as error:
-        raise UsageError(str(error), where=str(path), remedy=_FORM) from error
-
-
-def _to_reply(number: int, row: Any) -> ScriptReply:
-    """One entry, of this number in the file. Raises ValueError that says what of it is wrong."""
-    if not isinstance(row, dict) or "id" not in row:
-        raise ValueError(f"reply {number} has no id")
-    if unknown := row.keys() - {"id", "choice", "exceptions", "selections", "labels", "later"}:
-        raise ValueError(f"reply {number} has a field {min(unknown)!r}, which is none of a reply")
-    choice, later = row.get("choice"), row.get("later", False)
-    if choice is not None and (isinstance(choice, bool) or not isinstance(choice, int | str)):
-        raise ValueError(f"reply {number}: the choice {choice!r} is no id, and no number from 0")
-    if not isinstance(later, bool):
-        raise ValueError(f"reply {number}: {later!r} for later is not true or false")
-    exceptions, selections, labels = (row.get(name, {}) for name in ("exceptions", "selections", "labels"))
-    if not isinstance(exceptions, dict):
-        raise ValueError(f"reply {number}: its exceptions are no labels by ASSET#HULL")
-    for place, label in exceptions.items():
-        if "#" not in place or not isinstance(label, str):
-            raise ValueError(f"reply {number}: the exception {place!r} is no label of an ASSET#HULL")
-    if not isinstance(selections, dict) or not all(map(_is_selection, selections.items())):
-        raise ValueError(f"reply {number}: its selections are no lists of hulls by the numbers of rules")
-    if not isinstance(labels, dict) or not all(isinstance(label, str) for label in labels.values()):
-        raise ValueError(f"reply {number}: its labels are no labels by hull")
-    places = ((place.rpartition("#"), label) for place, label in exceptions.items())
-    hulls = {HullPlace(asset, hull): label for (asset, _, hull), label in places}
-    chosen = {int(rule): frozenset(names) for rule, names in selections.items()}
-    return ScriptReply(number, str(row["id"]), choice, hulls, chosen, labels, later)
-
-
-def _is_selection(row: tuple[str, Any]) -> bool:
-    rule, hulls = row
-    return rule.isdecimal() and isinstance(hulls, list) and all(isinstance(name, str) for name in hulls)
+        return _REPLIES.validate_json(path.read_bytes().removeprefix(BOM_UTF8))
+    except OSError as error:
+        raise UsageError(f"the replies cannot be read: {error.strerror}", where=str(path)) from error
+    except ValidationError as error:
+        raise UsageError(first_validation_error(error), where=str(path), remedy=_FORM) from error
 
 
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
@@ -198,17 +170,3 @@ def _parse_manual_edit(words: Sequence[str], question: ReviewQuestion, chosen: s
         else:
             raise UsageError(f"{word!r} is no RULE:HULL,HULL and no HULL=LABEL")
     return ReviewReply(question.id, chosen, selections=selections, labels=labels)
-
-
-def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> Iterator[str]:
-    """Yield a sentence for each label of a person that the reply of a person changes: the last word counts."""
-    choice = question.choice(reply.choice)
-    given = dict.fromkeys(question.hulls, choice.label) if choice and not reply.later else {}
-    given_before = {HullPlace(question.asset, hull): label for hull, label in reply.labels.items()}
-    for place, label in {**given, **reply.exceptions, **given_before}.items():
-        was = state.meshes[place.asset].hull_of(place.hull).annotation
-        if label and was and was.source in HUMAN_SOURCES and was.name != label:
-            yield (
-                f"{place.hull} of {place.asset} was called {was.name} by a person before, and is {label} now: the last "
-                "word counts"
-            )

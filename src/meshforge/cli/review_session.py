@@ -17,7 +17,6 @@ import typer
 from meshforge.cli.console import progress
 from meshforge.cli.review_answers import (
     ScriptReply,
-    find_contradictions,
     format_prompt,
     format_question,
     format_reply_help,
@@ -48,35 +47,35 @@ class ReviewSession:
         self.taken_back = dict[str, str]()
         self.found = self._look()
 
-    def reply_to_all(self, replies: Sequence[ScriptReply]) -> int:
+    def reply_to_all(self, replies: Sequence[ScriptReply], by: str | None = None) -> int:
         """Take replies, each once its question is asked; how many did not fit. One that was taken before, as by a
-        command that was killed, fits."""
+        command that was killed, fits. by: the name of who says so."""
         waiting = list(replies)
         while asked := next(((one, question) for one in waiting if (question := self._find(one))), None):
             waiting.remove(asked[0])
-            self._reply(asked[1], asked[0].to_reply(asked[1]))
+            self._reply(asked[1], replace(asked[0].to_reply(asked[1]), by=by))
         return sum(not self._is_known(one) for one in waiting)
 
     def _find(self, one: ScriptReply) -> ReviewQuestion | None:
         """The question that it replies to, if it is asked now with that choice, or was never replied to."""
         question = one.find(self.found.assessment)
         is_gone = question and isinstance(one.choice, str) and question.choice(one.choice) is None
-        return None if is_gone and one.question in self._project.feedback().replied else question
+        return None if is_gone and one.id in self._project.feedback().replied else question
 
     def _is_known(self, one: ScriptReply) -> bool:
         """Whether a reply to a question that is not asked now was taken before, as it is."""
-        before = self._project.feedback().replied.get(one.question)
+        before = self._project.feedback().replied.get(one.id)
         if before is None:
-            remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
+            remark(f"{one.id}: this question is not asked any more, so the reply is skipped")
             return False
         origin = before.origin
         question = question_of(origin.asked) if origin else None
         reply = one.to_reply(question) if question else None
         if not (origin and reply) or reply.later or reply.to_json() == origin.reply:
-            remark(f"{one.question}: it was replied to before")
+            remark(f"{one.id}: it was replied to before")
             return True
         earlier, folder = json.dumps(origin.reply, ensure_ascii=False), shlex.quote(str(self._project.folder))
-        remark(f"{one.question}: {before.by or 'somebody'} said {earlier} before, so the reply is skipped")
+        remark(f"{one.id}: {before.by or 'somebody'} said {earlier} before, so the reply is skipped")
         remark(f"  to change that: {_explain_change(before, folder)}")
         return False
 
@@ -103,8 +102,6 @@ class ReviewSession:
 
     def _reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
         self._project.reply(question, reply)
-        for sentence in find_contradictions(self.found.state, question, reply):
-            remark(sentence)
         if question.kind == "result" and reply.choice == WRONG and not (reply.selections or reply.labels):
             word, asset = shlex.quote(str(self._project.folder)), shlex.quote(question.asset)
             show_it = f"meshforge demonstrate {word} {asset} 'HULLS => ACTION' ..."

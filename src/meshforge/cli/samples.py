@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.common import UsageError, pluralize
-from meshforge.project.next_step import format_first
+from meshforge.common import UsageError, pluralize, quote_path
 from meshforge.samples import FAMILIES, family_of, write_family
 
 
@@ -32,4 +31,4 @@ def samples(
     written = write_family(wanted, folder)
     done = f"wrote {pluralize(written, 'file')}" if written else "all files are there already"
     typer.echo(f"{folder}: {wanted.about}; {done}")
-    typer.echo(format_first(wanted.name, folder.absolute() / wanted.pattern))
+    typer.echo(f"Next: meshforge new {wanted.name} {quote_path(folder.absolute() / wanted.pattern)}")

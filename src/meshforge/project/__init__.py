@@ -25,10 +25,9 @@ __getattr__, __all__ = export_lazily(
         "run_report": "add_result_status build_run_report format_review format_status summarize_outputs",
         "sign_offs": "AssessmentBasis digest_inputs",
         "family_step": "choose_next_step",
-        "next_step": "NextStep format_first format_next format_step",
         "status": (
-            "GIVEN NO_LABEL SOURCE_WORDS AssetStatus FamilyState LastRun LearnStatus OpenQuestion OutputState "
-            "PropagationState Status"
+            "GIVEN NO_LABEL SOURCE_WORDS AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState "
+            "PropagationState Status format_next format_step"
         ),
     },
 )

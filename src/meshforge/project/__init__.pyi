@@ -40,10 +40,6 @@ from meshforge.project.run_report import summarize_outputs as summarize_outputs
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
 from meshforge.project.sign_offs import digest_inputs as digest_inputs
 from meshforge.project.family_step import choose_next_step as choose_next_step
-from meshforge.project.next_step import NextStep as NextStep
-from meshforge.project.next_step import format_first as format_first
-from meshforge.project.next_step import format_next as format_next
-from meshforge.project.next_step import format_step as format_step
 from meshforge.project.status import GIVEN as GIVEN
 from meshforge.project.status import NO_LABEL as NO_LABEL
 from meshforge.project.status import SOURCE_WORDS as SOURCE_WORDS
@@ -51,7 +47,10 @@ from meshforge.project.status import AssetStatus as AssetStatus
 from meshforge.project.status import FamilyState as FamilyState
 from meshforge.project.status import LastRun as LastRun
 from meshforge.project.status import LearnStatus as LearnStatus
+from meshforge.project.status import NextStep as NextStep
 from meshforge.project.status import OpenQuestion as OpenQuestion
 from meshforge.project.status import OutputState as OutputState
 from meshforge.project.status import PropagationState as PropagationState
 from meshforge.project.status import Status as Status
+from meshforge.project.status import format_next as format_next
+from meshforge.project.status import format_step as format_step

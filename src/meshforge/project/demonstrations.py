@@ -9,7 +9,6 @@ from meshforge import batch, symbolic, synthesis
 from meshforge import store as files
 from meshforge.common import MeshForgeError, ProjectError, UsageError, quote_path, suggest_among, suggest_name
 from meshforge.labels import merge
-from meshforge.project.hull_mapping import confirm_replaced
 from meshforge.store import NO_ORIGIN, Origin, Store
 
 
@@ -36,7 +35,6 @@ def demonstrate(store: Store, asset: str, steps: Iterable[synthesis.Step]) -> No
             elif verdict.meant:
                 store.add_events(verdict.model_copy(update={"meant": ()}))
         store.write_steps(asset, steps)
-        confirm_replaced(store, asset)
 
 
 def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) -> bool:

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from meshforge.common import pluralize, quote_path
 from meshforge.labels import label_command
-from meshforge.project.next_step import NextStep, StepKind
-from meshforge.project.status import GIVEN, AssetStatus, FamilyState
+from meshforge.project.status import GIVEN, AssetStatus, FamilyState, NextStep, StepKind
 from meshforge.store import Layout
 
 

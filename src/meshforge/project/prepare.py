@@ -10,12 +10,12 @@ from typing import Any, Self
 from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names, write_atomically
 from meshforge.formats import DecomposeBy, read
-from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder
 from meshforge.labels import NewHullLabels, label_new_hulls
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import HullMapping, describe_replaced
 from meshforge.project.preparation_plan import keep_decomposed
-from meshforge.store import History, Store, hull_digests
+from meshforge.store import History, Store
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 
 
@@ -136,16 +136,12 @@ class HullChange:
     @property
     def mapping(self) -> HullMapping:
         """Which new hulls take the place of old ones."""
-        return HullMapping.between(self.after, self._old_digests, hull_digests(self.mesh))
+        return HullMapping.between(self.after, self.old, self.mesh.index)
 
     @property
     def mapping_back(self) -> HullMapping:
         """Which old hulls took the place of new ones."""
-        return HullMapping.between(self.before, hull_digests(self.mesh), self._old_digests)
-
-    @property
-    def _old_digests(self) -> dict[str, str]:
-        return {name: digest(shape) for name, shape in self.old.items()}
+        return HullMapping.between(self.before, self.mesh.index, self.old)
 
     def write(
         self, title: str, kind: str, follow: NewHullLabels | None, others: Sequence[tuple[Path, bytes | None]]

@@ -1,6 +1,5 @@
 """Undoes what was done to an asset before the program, by the history of the project."""
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -100,20 +99,10 @@ def _read_snapshot(
         were, became = (history.read_contents({one.name: digest})[path] or b"" for digest in (before, after))
         if path == layout.labels(asset):
             labels = were, became
-        elif path == layout.events and len(own) == 1 and (merged := _merge_log(were, became, path, asset)) is not None:
-            files[path] = merged
         elif not path.is_relative_to(layout.preparation(asset)):
             conflicts.append(one)
     preparation = batch.Preparation() if everything else _read_preparation(layout.preparation(asset), files)
     return _Snapshot(preparation, files, tuple(conflicts), labels)
-
-
-def _merge_log(were: bytes, became: bytes, path: Path, asset: str) -> bytes | None:
-    """The log as it was, with what was appended since; None where it was changed otherwise, or for the asset itself."""
-    now = path.read_bytes() if path.exists() else b""
-    since = now[len(became) :]
-    is_about = json.dumps(asset, ensure_ascii=False)[1:-1].encode() in since
-    return were + since if now.startswith(became) and not is_about else None
 
 
 def _read_preparation(folder: Path, files: Mapping[Path, bytes | None]) -> batch.Preparation:

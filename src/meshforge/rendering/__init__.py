@@ -6,7 +6,7 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "camera": "VIEWS Up View",
-        "canvas": "check_picture_path encode_png encode_webp make_contact_sheet write_picture write_png",
+        "canvas": "check_picture_path encode_png make_contact_sheet to_data_url write_picture write_png",
         "colors": (
             "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy LabelLook color_hulls label_color label_colors "
             "look_of"

@@ -4,8 +4,8 @@ from meshforge.rendering.camera import Up as Up
 from meshforge.rendering.camera import View as View
 from meshforge.rendering.canvas import check_picture_path as check_picture_path
 from meshforge.rendering.canvas import encode_png as encode_png
-from meshforge.rendering.canvas import encode_webp as encode_webp
 from meshforge.rendering.canvas import make_contact_sheet as make_contact_sheet
+from meshforge.rendering.canvas import to_data_url as to_data_url
 from meshforge.rendering.canvas import write_picture as write_picture
 from meshforge.rendering.canvas import write_png as write_png
 from meshforge.rendering.colors import DIFFERENCE_COLORS as DIFFERENCE_COLORS

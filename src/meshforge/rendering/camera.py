@@ -89,10 +89,6 @@ class Camera:
             return aside, -self.axes[2:]
         return np.broadcast_to(self.eye, aside.shape), aside - self.axes[2]
 
-    def directions_to_eye(self, points: Floats) -> Floats:
-        """Return directions (n, 3) from points to the eye, not of unit length."""
-        return np.broadcast_to(self.axes[2], points.shape) if self.eye is None else self.eye - points
-
     def plane_coordinates(self, columns: PixelCoordinates, rows: PixelCoordinates) -> tuple[Floats, Floats]:
         """Return right and up of pixel columns and rows on the image plane."""
         width, height = self.size

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
@@ -152,11 +153,11 @@ def encode_png(image: Image) -> bytes:
     return stream.getvalue()
 
 
-def encode_webp(image: Image) -> bytes:
-    """Return the picture as a small WebP file, transparency kept."""
+def to_data_url(image: Image) -> str:
+    """Return the picture as an address `data:…` of a small WebP file, transparency kept."""
     stream = BytesIO()
     image.save(stream, "WEBP", quality=82, alpha_quality=90, method=2)
-    return stream.getvalue()
+    return f"data:image/webp;base64,{b64encode(stream.getvalue()).decode()}"
 
 
 def encode_jpeg(image: Image) -> bytes:

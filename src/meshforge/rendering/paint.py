@@ -1,4 +1,4 @@
-"""Pixels of a drawing: solid things lit, with their outlines, shells over them, and the soft shadow on the ground."""
+"""Pixels of a drawing: solid things lit, with their outlines, and shells over them."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,14 +15,6 @@ from meshforge.rendering.scene import RayScene
 
 _KEY = np.array([-0.42, 0.72, 0.62])  # right, up, towards the eye: over the left shoulder
 _FILL = np.array([0.85, 0.10, 0.45])
-_SKY_REACH = 0.35  # how far away things still darken a point, in diagonals
-_RAYS = 16
-_LIFT = 2e-3  # rays start this far above the surface, in diagonals
-
-_SKY_STEP = 4  # the sky is looked at once in so many pixels along each side
-_DITHER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]) / 16
-"""How the pattern of rays is turned, in 0..1: sixteen ways in every block of four by four cells."""
-_FLAT = 0.05  # rays that fall by less of their length do not meet the ground
 
 
 def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> Floats32:
@@ -37,112 +29,13 @@ def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> F
     return np.where(bright <= 0.0031308, bright * 12.92, 1.055 * bright ** (1 / 2.4) - 0.055).astype(np.float32)
 
 
-def _measure_free_share(scene: RayScene, points: Floats, normals: Floats, turn: Floats) -> Floats32:
-    """The share (n,) of the sky above points (n, 3) that nothing blocks near by.
-
-    turn: (n,) in 0..1, how the pattern of rays is turned there; neighbours that differ can be averaged.
-    """
-    if len(points) == 0:
-        return np.zeros(0, np.float32)
-    first = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    second = np.cross(normals, first)
-    origins = (points + normals * _LIFT).astype(np.float32)
-    free = np.zeros(len(points), np.float32)
-    above, aside, across = (a.astype(np.float32) for a in (normals, first, second))
-    for k in range(_RAYS):
-        radius = np.float32(np.sqrt((k + 0.5) / _RAYS))  # cosine weighted: a disc lifted onto the hemisphere
-        angle = (2 * np.pi * (k * 0.6180339887498949 + turn)).astype(np.float32)
-        x, y = radius * np.cos(angle), radius * np.sin(angle)
-        directions = aside * x[:, None] + across * y[:, None] + above * np.sqrt(1 - radius * radius)
-        free += ~scene.is_blocked(origins, directions, _SKY_REACH)
-    return free / np.float32(_RAYS)
-
-
-def compute_openness(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats32:
-    """Return how open (h, w) in 0..1 the places are that pixels show; of pixels that show nothing, the ground there."""
-    found = np.ones(hits.item.shape, np.float32)
-    if not len(hits.scene.corners):
-        return found
-    half = _SKY_STEP // 2
-    coarse = hits.triangle[half::_SKY_STEP, half::_SKY_STEP]
-    r, c = (places.ravel() for places in np.indices(coarse.shape))
-    rows, columns, seen = r * _SKY_STEP + half, c * _SKY_STEP + half, coarse.ravel() >= 0
-    points = _ground_points(frame, camera, rows, columns)
-    points[seen] = hits.points(camera, rows[seen], columns[seen])
-    normals = np.where(seen[:, None], hits.scene.normals[coarse.ravel()], frame.upright)
-    away = np.einsum("ij,ij->i", normals, camera.directions_to_eye(points)) < 0
-    normals[away & seen] *= -1
-    low, high = (end(hits.scene.corners.reshape(-1, 3), axis=0) for end in (np.min, np.max))
-    near = np.flatnonzero(((points > low - _SKY_REACH) & (points < high + _SKY_REACH)).all(axis=1))
-    grid = np.ones(coarse.size, np.float32)
-    grid[near] = _measure_free_share(hits.scene, points[near], normals[near], _DITHER[r % 4, c % 4][near])
-    grid = _smooth(grid.reshape(coarse.shape), np.append(hits.scene.facet, -1)[coarse])
-    high, wide = (np.minimum(np.arange(found.shape[k]) // _SKY_STEP, grid.shape[k] - 1) for k in (0, 1))
-    fine = np.nonzero((grid < 1)[np.ix_(high, wide)])
-    found[fine] = _upsample(grid, coarse, hits, *fine)
-    return found
-
-
-def _ground_points(frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints) -> Floats:
-    """Where the rays through pixels meet the ground (n, 3); those that do not, or nearly along it, far away."""
-    origins, directions = camera.pixel_rays(columns, rows)
-    fall = -(directions @ frame.upright)
-    lowest = float((frame.to_unit(frame.bounds.corners) @ frame.upright).min())
-    depth = (origins @ frame.upright - lowest) / np.where(fall > _FLAT, fall, 1e-9)
-    return origins + directions * depth[:, None]
-
-
-def _smooth(grid: Floats32, facet: Ints) -> Floats32:
-    """Each cell mixed with those around it on the same facet, such that a pattern of four cells averages out."""
-    for axis in (0, 1):
-        total, weight = 2 * grid, np.full(grid.shape, 2, np.float32)
-        for step, share in ((1, 2), (2, 1)):
-            for here, there in (neighbour_slices(axis, step), neighbour_slices(axis, step)[::-1]):
-                same = share * (facet[here] == facet[there]).astype(np.float32)
-                total[here] += grid[there] * same
-                weight[here] += same
-        grid = total / weight
-    return grid
-
-
-def _upsample(grid: Floats32, coarse: Ints, hits: RayHits, rows: Ints, columns: Ints) -> Floats32:
-    """Values of a coarse grid at fine pixels: from the nearest cells, of the same facet where there are any."""
-    facet_of = np.append(hits.scene.facet, -1)
-    item_of = np.append(hits.scene.item, -1).astype(np.int32)
-    facets, items = facet_of[coarse], item_of[coarse]
-    triangle = hits.triangle[rows, columns]
-    facet, item = facet_of[triangle], item_of[triangle]
-    total, weights = np.zeros(len(rows), np.float32), np.full(len(rows), 1e-6, np.float32)
-    for r, rw in _interpolation_taps(rows, grid.shape[0]):
-        for c, cw in _interpolation_taps(columns, grid.shape[1]):
-            cell = r * grid.shape[1] + c
-            weight = ((facets.take(cell) == facet) + np.float32(0.02) * (items.take(cell) == item)) * rw * cw
-            total += weight * grid.take(cell)
-            weights += weight
-    return np.where(weights > 1e-5, total / weights, np.float32(1.0))
-
-
-def _interpolation_taps(places: Ints, count: int) -> list[tuple[Ints, Floats32]]:
-    """The two coarse cells about each pixel along one side, with their weights; never quite zero."""
-    at: Floats32 = (places.astype(np.float32) - np.float32(_SKY_STEP // 2)) / np.float32(_SKY_STEP)
-    below: Floats32 = np.floor(at)
-    share, low = at - below, below.astype(np.int64)
-    return [
-        (np.clip(low, 0, count - 1), np.float32(1.01) - share),
-        (np.clip(low + 1, 0, count - 1), np.float32(0.01) + share),
-    ]
-
-
 LineStrengths = npt.NDArray[np.uint8]
 CREASE, BORDER, SILHOUETTE = 1, 2, 3
 _SHARP = np.cos(np.radians(24.0))  # edges flatter than this are left out: they are tessellation, not form
 
 _INK = np.array([0.10, 0.12, 0.16], np.float32)
 _STRENGTH = np.array([0.0, 0.22, 0.80, 0.92], np.float32)  # of no line, a crease, a border, a silhouette
-_CORNER = 0.55  # how much darker a place without any sky is
 _SAME_DEPTH = 5e-4  # shells this little behind a solid thing count as before it, in diagonals
-_SHADOW = 0.36  # how dark the ground is where it sees no sky
 
 
 def _blend(pixels: Floats32, rows: Ints, columns: Ints, color: Floats32, share: Floats32) -> None:
@@ -201,12 +94,9 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     """
     close = camera.supersample(fine)
     solid = cast_layer(layers[0], frame, close)
-    openness = compute_openness(solid, frame, close)
-    pixels = np.zeros((*openness.shape, 4), np.float32)
-    pixels[..., 3] = (1 - openness) * np.float32(_SHADOW)
+    pixels = np.zeros((*solid.item.shape, 4), np.float32)
     rows, columns = _pixels_where(solid.item >= 0)
     color = shade_surface(layers[0], solid, frame, close, rows, columns)
-    color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
     color += (1 - color) * (0.55 * _find_pattern(layers[0].hatched, solid)[rows, columns])[:, None]
     color *= (1 - 0.4 * _find_pattern(layers[0].dotted, solid, dots=True)[rows, columns])[:, None]
     pixels[rows, columns, :3], pixels[rows, columns, 3] = color, 1.0
@@ -216,7 +106,7 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     _blend(pixels, rows, columns, _INK, _STRENGTH[drawn[rows, columns]])  # dark lines over the picture
     for layer in layers[1:]:
         _paint_shell(pixels, layer, solid, frame, close, width)
-    height, across = (side // fine for side in openness.shape)
+    height, across = (side // fine for side in solid.item.shape)
     mean: Floats32 = pixels.reshape(height, fine, across, fine, 4).mean(axis=(1, 3))
     return mean, solid.item[fine // 2 :: fine, fine // 2 :: fine]
 

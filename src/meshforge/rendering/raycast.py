@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -11,8 +10,6 @@ from meshforge.rendering.camera import Camera, Up
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, window_rays
 
 _BORDER = 8  # pixels about what can be seen, so that its outline has room
-
-_STEP = 0.01  # how far from each other's planes neighbouring places of a thing are at a step, in diagonals
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -27,7 +24,6 @@ class DrawLayer:
 
     render_meshes: Sequence[RenderMesh]
     colors: Floats
-    solid: bool = True
     before: float = 1.0
     behind: float = 0.0
     hatched: frozenset[int] = frozenset()
@@ -110,22 +106,7 @@ def window_of(scene: RayScene, camera: Camera) -> tuple[slice, slice]:
     return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))
 
 
-def find_steps(hits: RayHits, camera: Camera) -> Any:
-    """Return the pixels (h, w) at which a thing steps back behind itself, or forward: its surface does not go on."""
-    steps = np.zeros(hits.item.shape, bool)
-    for axis in (0, 1):
-        here, there = neighbour_slices(axis)
-        same = (hits.item[here] == hits.item[there]) & (hits.triangle[here] != hits.triangle[there])
-        rows, columns = np.nonzero(same)
-        beside = (rows + 1, columns) if axis == 0 else (rows, columns + 1)
-        away = hits.points(camera, *beside) - hits.points(camera, rows, columns)
-        normals = [hits.scene.normals[hits.triangle[place]] for place in ((rows, columns), beside)]
-        far = np.min([np.abs(np.einsum("ij,ij->i", away, normal)) for normal in normals], axis=0) > _STEP
-        steps[rows[far], columns[far]] = steps[beside[0][far], beside[1][far]] = True
-    return steps
-
-
-def neighbour_slices(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
-    """Return the pixels that have one `step` further along an axis, and those."""
-    first, second, whole = slice(None, -step), slice(step, None), slice(None)
+def neighbour_slices(axis: int) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+    """Return the pixels that have one further along an axis, and those."""
+    first, second, whole = slice(None, -1), slice(1, None), slice(None)
     return ((first, whole), (second, whole)) if axis == 0 else ((whole, first), (whole, second))

@@ -90,14 +90,13 @@ def _ring_faces(profile: Floats, sides: int) -> Ints:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RayScene:
-    """Triangles (m) with their item, planar facet and normals, in a frame of unit size; embree: the ray caster.
+    """Triangles (m) with their item and normals, in a frame of unit size; embree: the ray caster.
 
-    corners: (m, 3, 3); item, facet: (m,); normals: (m, 3), outward; bent: at the corners (m, 3, 3), NaN where flat.
+    corners: (m, 3, 3); item: (m,); normals: (m, 3), outward; bent: at the corners (m, 3, 3), NaN where flat.
     """
 
     corners: Floats
     item: Ints
-    facet: Ints
     normals: Floats
     bent: Floats
     embree: Any
@@ -112,11 +111,6 @@ class RayScene:
         mixed = np.einsum("ik,ikj->ij", np.stack([1 - second - third, second, third], axis=1), self.bent[triangles])
         smooth: Floats = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
         return smooth
-
-    def is_blocked(self, origins: Floats32, directions: Floats32, reach: float) -> Any:
-        """Return which rays (n,) meet something within `reach`."""
-        reaches = np.full(len(origins), reach, np.float32)
-        return self.embree.run(origins, directions, dists=reaches, query="OCCLUDED") >= 0
 
     def depth(self, triangles: Ints, origins: Floats, directions: Floats) -> Floats:
         """Return how far along its ray each hit of a known triangle (n,) lies."""
@@ -141,7 +135,7 @@ def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float
     solid = length > 1e-14
     corners, smooth, item = corners[solid], np.concatenate([none, *bent])[solid], item[solid]
     normals = cross[solid] / length[solid, None]
-    return RayScene(corners, item, _number_facets(item, normals, smooth), normals, smooth, None)
+    return RayScene(corners, item, normals, smooth, None)
 
 
 def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
@@ -168,13 +162,6 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
     if len(corners):
         TriangleMesh(embree, corners.astype(np.float32))
     return replace(scene, corners=corners, embree=embree)
-
-
-def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:
-    """One number for all triangles of an item with one normal: the same face of a convex piece, or one round thing."""
-    steps = np.rint(normals * 500).astype(np.int64) + 512
-    key = ((item * 1024 + steps[:, 0]) * 1024 + steps[:, 1]) * 1024 + steps[:, 2]
-    return np.unique(np.where(~np.isfinite(bent[:, 0, 0]), key, -1 - item), return_inverse=True)[1].astype(np.int32)
 
 
 def window_rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[Floats32, Floats32]:

@@ -21,7 +21,7 @@ from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
 from meshforge.signoff.question import ExclusionReason, ReviewQuestion, ReviewReply
-from meshforge.store.layout import JsonFile, ReplacedHulls
+from meshforge.store.layout import JsonFile
 
 Line = TypeVar("Line")
 Verdict = Literal["accepted", "wrong"]
@@ -97,7 +97,6 @@ class AnswerEvent(_Withdrawable):
     select: tuple[str, ...] | None = None
     action: str | None = None
     refused: tuple[tuple[str, ...], ...] = ()
-    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:
@@ -153,7 +152,6 @@ class LabelFixEvent(_Withdrawable):
     to: str
     accepted: bool
     before: LabelBefore | None = None
-    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:

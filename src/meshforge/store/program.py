@@ -55,7 +55,6 @@ class ManualEditLine(JsonFile):
 
     hulls: dict[str, str]
     action: str
-    replaced: ReplacedHulls = Field(default_factory=dict)
 
 
 class ManualEditsFile(JsonFile):

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
 from typing import get_args
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, read_stamp, run_isolated
 from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
 from meshforge.common.processes import memory_share
 from meshforge.project import Project
-from meshforge.rendering import LengthUnit, encode_png
-from meshforge.store import NotHereError
+from meshforge.rendering import LengthUnit, to_data_url
 from meshforge.studio.output_measures import MeasureTask, check_key, measure, read_pair
 from meshforge.studio.thumbnails import remove_oldest
 from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault
@@ -27,7 +26,6 @@ PICTURE_SIZE = (800, 600)
 CHECK_PARTS: tuple[CheckPart, ...] = get_args(CheckPart)
 MOST_RESULTS = 8000
 """Files that are kept when a studio is opened."""
-_PICTURE_LIST = TypeAdapter(tuple[CheckPicture, ...])
 
 
 class OutputChecks:
@@ -47,17 +45,8 @@ class OutputChecks:
     def draw_pictures(
         self, project: Project, asset: str, part: CheckPart, unit: LengthUnit = "m"
     ) -> Future[tuple[CheckPicture, ...]]:
-        """Return the pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
-        work = _make_task(project, asset)
-        kept = self._cache.read_pictures(work.key, part, unit)
-        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, unit, self._cache)
-
-    def read_picture(self, asset: str, key: str, name: str) -> bytes:
-        """Return a picture that was drawn. Raises NotHereError for any other."""
-        try:
-            return self._cache.picture_path(key, name).read_bytes()
-        except OSError:
-            raise NotHereError("there is no such picture", where=asset) from None
+        """Return the pictures of a part, drawn now. Raises ProjectError where there is no output."""
+        return self._workers.start(_draw, _make_task(project, asset), part, unit)
 
     def faults_of(self, key: str | None) -> tuple[Fault, ...] | None:
         """Return the faults of the output of a key, None where not all of its parts are measured."""
@@ -126,13 +115,11 @@ def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
     return problem
 
 
-def _draw(task: MeasureTask, part: CheckPart, unit: LengthUnit, cache: ResultCache) -> tuple[CheckPicture, ...]:
+def _draw(task: MeasureTask, part: CheckPart, unit: LengthUnit) -> tuple[CheckPicture, ...]:
     pair = read_pair(task)
     found = None if part == "engines" else examine_mesh(pair.after, CheckOptions((part,)), pair.before)
     rows = draw_examination(pair.after, found, PICTURE_SIZE, unit) if found else ()
-    drawn = [(CheckPicture(name=f"{name}-{unit}", text=text), encode_png(image)) for name, text, image in rows]
-    cache.write_pictures(task.key, part, unit, drawn)
-    return tuple(picture for picture, _ in drawn)
+    return tuple(CheckPicture(text=text, source=to_data_url(image)) for _, text, image in rows)
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,27 +150,3 @@ class ResultCache:
             return None
         found = [finding for checked in parts for finding in checked.findings]
         return tuple(Fault(rule=f.rule, severity=f.severity, engine=f.engine, new=f.new) for f in found)
-
-    def read_pictures(self, key: str, part: CheckPart, unit: LengthUnit) -> tuple[CheckPicture, ...] | None:
-        """Return the pictures of a part that were drawn."""
-        try:
-            return _PICTURE_LIST.validate_json(self._list_path(key, part, unit).read_bytes())
-        except (OSError, ValidationError):
-            return None
-
-    def write_pictures(
-        self, key: str, part: CheckPart, unit: LengthUnit, drawn: Iterable[tuple[CheckPicture, bytes]]
-    ) -> None:
-        """Keep the pictures of a part; the list of them comes last."""
-        drawn = tuple(drawn)
-        for picture, data in drawn:
-            write_atomically(self.picture_path(key, picture.name), data)
-        names = _PICTURE_LIST.dump_json(tuple(picture for picture, _ in drawn))
-        write_atomically(self._list_path(key, part, unit), names)
-
-    def _list_path(self, key: str, part: CheckPart, unit: LengthUnit) -> Path:
-        return self.folder / f"{key}.{part}.{unit}.pictures.json"
-
-    def picture_path(self, key: str, name: str) -> Path:
-        """Return where a picture is kept."""
-        return self.folder / f"{key}.{name}.png"

@@ -1,19 +1,17 @@
-"""Thumbnails: drawn in worker processes on request, the latest request first, and cached on disk."""
+"""Thumbnails: drawn in worker processes on request, and cached on disk."""
 
-from concurrent.futures import CancelledError, Future
-from functools import partial
+from concurrent.futures import Future
 from pathlib import Path
-from threading import Lock
 from typing import Literal
 
 from meshforge.batch import read_stamp
-from meshforge.common import MeshForgeError, write_atomically
+from meshforge.common import write_atomically
 from meshforge.formats import load
 from meshforge.geometry import digest
 from meshforge.project import Project, output_digest
 from meshforge.store import NotHereError, geometry_digest
 from meshforge.studio.queries.assets import compute_upright, draw_thumbnail, output_picture_digest, picture_digest
-from meshforge.studio.workers import Workers, future_of, project_of_one, wait_for
+from meshforge.studio.workers import Workers, future_of, project_of_one
 
 ThumbnailOf = Literal["source", "output"]
 
@@ -21,18 +19,11 @@ MOST_THUMBNAILS = 4000
 """Pictures that stay when a studio is opened; the oldest go."""
 
 
-_Work = tuple[Project, str, ThumbnailOf, str, Path]
-"""The arguments of `_draw`."""
-
-
 class Thumbnails:
-    """The thumbnails of a project. A request that is already waiting is not put in twice."""
+    """The thumbnails of a project; pages ask for few at once, what was wanted last first."""
 
     def __init__(self, folder: Path, workers: Workers) -> None:
         self._folder, self._workers = folder, workers
-        self._lock = Lock()
-        self._waiting: dict[str, tuple[_Work, Future[bytes]]] = {}
-        self._drawing: dict[str, Future[bytes]] = {}
         remove_oldest(folder, MOST_THUMBNAILS)
 
     def get(self, project: Project, asset: str, of: ThumbnailOf, digest: str) -> Future[bytes]:
@@ -43,40 +34,7 @@ class Thumbnails:
         kept = self._folder / f"{digest}.png"
         if kept.is_file():
             return future_of(kept.read_bytes())
-        wanted = project_of_one(project, asset), asset, of, digest, kept
-        with self._lock:
-            if digest in self._drawing:
-                return self._drawing[digest]
-            work, future = self._waiting.pop(digest, (wanted, Future[bytes]()))
-            self._waiting[digest] = work, future  # now the one that was asked for last
-        self._start_next()
-        return future
-
-    def _start_next(self) -> None:
-        with self._lock:
-            if not self._waiting or len(self._drawing) >= self._workers.count:
-                return
-            digest, (work, future) = self._waiting.popitem()
-            self._drawing[digest] = future
-        try:
-            self._workers.start(_draw, *work).add_done_callback(partial(self._end, digest, future))
-        except MeshForgeError as error:  # the studio is being closed
-            self._finish(digest)
-            future.set_exception(error)
-
-    def _end(self, digest: str, future: Future[bytes], drawn: Future[bytes]) -> None:
-        self._finish(digest)
-        if not future.done():  # who asked for it may have left
-            try:
-                future.set_result(wait_for(drawn))
-            except (Exception, CancelledError) as error:
-                known = isinstance(error, MeshForgeError)
-                future.set_exception(error if known else MeshForgeError(f"this was not drawn: {error}"))
-        self._start_next()
-
-    def _finish(self, digest: str) -> None:
-        with self._lock:
-            del self._drawing[digest]
+        return self._workers.start(_draw, project_of_one(project, asset), asset, of, digest, kept)
 
 
 def _draw(project: Project, asset: str, of: ThumbnailOf, wanted: str, target: Path) -> bytes:

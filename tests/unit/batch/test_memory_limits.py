@@ -53,7 +53,7 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
 def test_jobs_are_described_by_kind_size_and_labels(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 3)
     (tmp_path / "assets/table0/model.labels.json").unlink()
-    assert describe_jobs(make_jobs(expand([tmp_path / "assets"]))) == "3 assets (3 OBJ; 0.0 MiB), 2 with labels"
+    assert describe_jobs(make_jobs(expand([tmp_path / "assets"]))) == "3 assets (3 OBJ), 2 with labels"
 
 
 def test_a_summary_counts_all_and_keeps_few() -> None:

@@ -90,7 +90,7 @@ def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path:
         (tmp_path / f"assets/{name}.labels.json").write_text('{"hulls": {"top": "top"}}')
     told = run("label", "p", "--with", source, "--workers", "2", "--timeout", "60", "--memory", "1")
     assert told.code == 1
-    assert told.err == "3 assets (3 OBJ; 0.0 MiB), 1 with labels\n"
+    assert told.err == "3 assets (3 OBJ), 1 with labels\n"
     assert "t1.obj: 0 labels taken\n    left out: " in told.out
     assert project.labels("t2.obj").labels and not project.labels("t1.obj").labels
 

@@ -65,7 +65,7 @@ def test_it_shows_what_it_would_do_does_it_and_takes_it_back(run: Run, tmp_path:
     assert (shown.code, SURE.sub("SURE", told(shown.out)), shown.err) == (0, SHOWN, "")
     assert tree(tmp_path / "p/labels") == before
     done = run("label", "p", "--with", "propagate")
-    assert (done.code, done.err) == (0, "6 assets (6 OBJ; 0.0 MiB), 6 with labels\n")
+    assert (done.code, done.err) == (0, "6 assets (6 OBJ), 6 with labels\n")
     assert told(done.out).replace(f"{tmp_path}/", "").rpartition(" ")[0] == DONE
     again = told(run("label", "p", "--with", "propagate").out)
     assert "\nEvery hull keeps its label.\n" in again and again.count("0 labels taken, 6 there already") == 6

@@ -185,8 +185,14 @@ def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: R
             ("cut", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"),
             "does not cut it\n  Choose --at within it",
         ),
-        (("cut", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"), "--at nan,0,0: three numbers"),
-        (("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "0,0,0"), "--across 0,0,0: a direction"),
+        (
+            ("cut", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"),
+            "needs a point whose coordinates are finite",
+        ),
+        (
+            ("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "0,0,0"),
+            "needs a normal that is finite and not zero",
+        ),
         (("cut", "p", "row.obj", "geom9", "--at", "2,0,0", "--across", "1,0,0"), "there is no hull 'geom9'"),
     ],
 )

@@ -5,12 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from meshforge.cli.review_answers import (
     ScriptReply,
-    find_contradictions,
     format_prompt,
     format_question,
     format_reply_help,
@@ -19,11 +17,8 @@ from meshforge.cli.review_answers import (
     read_replies,
 )
 from meshforge.common import UsageError
-from meshforge.geometry import Box, Pose
-from meshforge.language import Program
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, ReviewState
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, WRONG
-from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LEFT, RIGHT = HullPlace("a.obj", "left"), HullPlace("b.obj", "right")
 LEG = ReviewChoice.of_label("leg")
@@ -87,40 +82,41 @@ def test_replies_are_read_from_a_file(tmp_path: Path) -> None:
         {"id": "z", "choice": "wrong", "selections": {"2": ["left"]}, "labels": {"left": "leg"}},
     ]
     path.write_text(json.dumps(rows))
-    assert read_replies(path) == [
-        ScriptReply(1, "group-1", 0, {RIGHT: "panel"}),
-        ScriptReply(2, "x", None),
-        ScriptReply(3, "y", later=True),
-        ScriptReply(4, "z", WRONG, selections={2: frozenset({"left"})}, labels={"left": "leg"}),
-    ]
+    assert read_replies(path) == (
+        ScriptReply(id="group-1", choice=0, exceptions={f"{RIGHT.asset}#{RIGHT.hull}": "panel"}),
+        ScriptReply(id="x"),
+        ScriptReply(id="y", later=True),
+        ScriptReply(id="z", choice=WRONG, selections={"2": frozenset({"left"})}, labels={"left": "leg"}),
+    )
+    group, *_, wrong = read_replies(path)
+    assert group.to_reply(GROUP) == ReviewReply("group-1", "leg", {RIGHT: "panel"})
+    expected = ReviewReply("z", WRONG, selections={2: frozenset({"left"})}, labels={"left": "leg"})
+    assert wrong.to_reply(READING) == expected
 
 
 def test_a_choice_is_an_id_or_a_number_from_0() -> None:
-    assert ScriptReply(1, "reading-1", 1).to_reply(READING) == ReviewReply("reading-1", "b")
-    assert ScriptReply(1, "reading-1", "b").to_reply(READING) == ReviewReply("reading-1", "b")
-    assert ScriptReply(1, "reading-1", None).to_reply(READING) == ReviewReply("reading-1", None)
-    with pytest.raises(UsageError, match="reply 3: question reading-1 has 2 choices"):
-        ScriptReply(3, "reading-1", 2).to_reply(READING)
+    assert ScriptReply(id="reading-1", choice=1).to_reply(READING) == ReviewReply("reading-1", "b")
+    assert ScriptReply(id="reading-1", choice="b").to_reply(READING) == ReviewReply("reading-1", "b")
+    assert ScriptReply(id="reading-1").to_reply(READING) == ReviewReply("reading-1", None)
+    with pytest.raises(UsageError, match="question reading-1 has 2 choices"):
+        ScriptReply(id="reading-1", choice=2).to_reply(READING)
 
 
 @pytest.mark.parametrize(
     ("row", "problem"),
     [
-        ({"choice": 0}, "reply 2 has no id"),
-        ("a", "reply 2 has no id"),
-        ({"id": "a", "choice": True}, "reply 2: the choice True is no id, and no number from 0"),
-        ({"id": "a", "choice": ["x"]}, "reply 2: the choice ['x'] is no id, and no number from 0"),
-        ({"id": "a", "selections": {"a": []}}, "reply 2: its selections are no lists of hulls by the numbers of rules"),
-        (
-            {"id": "a", "selections": {"1": "b"}},
-            "reply 2: its selections are no lists of hulls by the numbers of rules",
-        ),
-        ({"id": "a", "labels": {"b": 1}}, "reply 2: its labels are no labels by hull"),
-        ({"id": "a", "later": "yes"}, "reply 2: 'yes' for later is not true or false"),
-        ({"id": "a", "pick": 1}, "reply 2 has a field 'pick', which is none of a reply"),
-        ({"id": "a", "exceptions": ["b"]}, "reply 2: its exceptions are no labels by ASSET#HULL"),
-        ({"id": "a", "exceptions": {"b": "c"}}, "reply 2: the exception 'b' is no label of an ASSET#HULL"),
-        ({"id": "a", "exceptions": {"b#c": 1}}, "reply 2: the exception 'b#c' is no label of an ASSET#HULL"),
+        ({"choice": 0}, "the field [1].id is missing"),
+        ("a", 'the field [1]: expected an object {...}, found "a"'),
+        ({"id": "a", "choice": True}, "the field [1].choice: expected the id of a choice, a number from 0, or null"),
+        ({"id": "a", "choice": ["x"]}, "the field [1].choice: expected the id of a choice, a number from 0, or null"),
+        ({"id": "a", "selections": {"a": []}}, 'the field [1].selections.a.[key]: "a" does not fit'),
+        ({"id": "a", "selections": {"1": "b"}}, 'the field [1].selections.1: expected a list [...], found "b"'),
+        ({"id": "a", "labels": {"b": 1}}, "the field [1].labels.b: expected a text, found 1"),
+        ({"id": "a", "later": "yes"}, 'the field [1].later: expected true or false, found "yes"'),
+        ({"id": "a", "pick": 1}, "there is no such field as [1].pick"),
+        ({"id": "a", "exceptions": ["b"]}, 'the field [1].exceptions: expected an object {...}, found ["b"]'),
+        ({"id": "a", "exceptions": {"b": "c"}}, 'the field [1].exceptions.b.[key]: "b" does not fit'),
+        ({"id": "a", "exceptions": {"b#c": 1}}, "the field [1].exceptions.b#c: expected a text, found 1"),
     ],
 )
 def test_an_entry_of_another_form_is_named_with_what_is_wrong(tmp_path: Path, row: object, problem: str) -> None:
@@ -133,26 +129,13 @@ def test_an_entry_of_another_form_is_named_with_what_is_wrong(tmp_path: Path, ro
 
 @pytest.mark.parametrize(
     ("data", "problem"),
-    [(b"{", "this is no JSON"), (b"{}", "this is no list"), (b"3", "no list"), (b"\xff", "not UTF-8 text")],
+    [(b"{", "this is no JSON"), (b"{}", "expected a list"), (b"3", "expected a list"), (b"\xff", "this is no JSON")],
 )
 def test_a_file_of_another_form_is_refused(tmp_path: Path, data: bytes, problem: str) -> None:
     path = tmp_path / "said.json"
     path.write_bytes(data)
     with pytest.raises(UsageError, match=problem):
         read_replies(path)
-
-
-def state_of(label: Label) -> ReviewState:
-    shape = Box(Pose.identity(), np.ones(3))
-    meshes = {place.asset: SymbolicMesh((Hull(place.hull, "body", shape, label),)) for place in (LEFT, RIGHT)}
-    return ReviewState(meshes, Program())
-
-
-def test_what_a_person_said_before_is_told_and_the_last_word_counts() -> None:
-    told = list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", "leg", {RIGHT: "panel"})))
-    assert told == ["left of a.obj was called panel by a person before, and is leg now: the last word counts"]
-    assert not list(find_contradictions(state_of(Label("panel", 0.5, "vlm")), GROUP, ReviewReply("group-1", "leg")))
-    assert not list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", later=True)))
 
 
 def test_a_group_lists_its_hulls_by_letter() -> None:

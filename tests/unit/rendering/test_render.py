@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from PIL import Image
 
 from meshforge.common import UsageError
 from meshforge.geometry import Aabb, Pose
-from meshforge.rendering import VIEWS, View, encode_png, encode_webp, label_colors, render, write_picture, write_png
+from meshforge.rendering import VIEWS, View, encode_png, label_colors, render, to_data_url, write_picture, write_png
 from meshforge.rendering.colors import COLOR_BY, SELECTED, rgb
 from meshforge.symbolic import Asset, Document, Surface, SymbolicMesh
 from tests.id_buffer import render_id_buffer
@@ -227,7 +228,7 @@ def test_a_png_is_read_back_pixel_by_pixel(tmp_path: Path) -> None:
 
 def test_a_webp_keeps_transparency_and_is_small() -> None:
     image = render(table(), size=(320, 240), legend=False, background=None)
-    data = encode_webp(image)
+    data = b64decode(to_data_url(image).removeprefix("data:image/webp;base64,"))
     with Image.open(BytesIO(data)) as found:
         assert found.convert("RGBA").getpixel((0, 0)) == (0, 0, 0, 0)
     assert len(data) < 30_000

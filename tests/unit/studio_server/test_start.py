@@ -5,9 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-import signal
-import subprocess
-import sys
 from collections.abc import AsyncIterator, Iterator
 from pathlib import Path
 
@@ -20,7 +17,7 @@ from meshforge.store import ConflictError
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.start import folders
-from meshforge.studio.start.building import build_project, clean_up
+from meshforge.studio.start.folders import build_project
 from meshforge.studio.start.page import RecentProjects, StartPage, state_folder
 from meshforge.studio.wire.start import ProjectOfFamily, ProjectOfFolder, ProjectOfUpload
 from tests.unit.batch.families import tree
@@ -171,7 +168,7 @@ def test_a_look_names_the_parts_of_what_has_no_hulls(page: StartPage, tmp_path: 
 
 
 def test_a_project_of_an_upload_has_the_assets_that_can_be_read_in_its_own_folder(
-    page: StartPage, tmp_path: Path, state: Path
+    page: StartPage, tmp_path: Path
 ) -> None:
     send(page, "desks/table_01.obj", (TABLES / "table_01.obj").read_bytes())
     send(page, "desks/bad.obj", b"v 0 0 zero\nf 1 1 1\n")
@@ -182,8 +179,9 @@ def test_a_project_of_an_upload_has_the_assets_that_can_be_read_in_its_own_folde
     project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
     assert project.assets() == ("table_01.obj",)
     assert project.path("table_01.obj") == tmp_path / "p" / "assets" / "desks" / "table_01.obj"
+    home = page.uploads.folder
     page.close()
-    assert not [path for path in (state / "uploads").rglob("*") if path.is_file()]
+    assert not home.parent.exists()
 
 
 def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(page: StartPage, tmp_path: Path) -> None:
@@ -215,43 +213,11 @@ def test_a_place_that_is_taken_is_refused_and_left_as_it_is(
     assert {name: data for name, data in tree(tmp_path).items() if not name.startswith("state/")} == before
 
 
-def test_an_error_while_a_project_is_made_leaves_nothing(tmp_path: Path, state: Path) -> None:
-    with pytest.raises(ZeroDivisionError), build_project(tmp_path / "a" / "b" / "c", state) as draft:
+def test_an_error_while_a_project_is_made_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(ZeroDivisionError), build_project(tmp_path / "a" / "b" / "c") as draft:
         (draft / "half").write_text("x")
         raise ZeroDivisionError
     assert not (tmp_path / "a").exists()
-
-
-_KILLED = """
-import os, signal, sys
-from pathlib import Path
-from meshforge.studio.start.building import build_project
-with build_project(Path(sys.argv[1]), Path(sys.argv[2])) as draft:
-    (draft / "half").write_text("x")
-    os.kill(os.getpid(), signal.SIGKILL)
-"""
-
-
-@pytest.mark.slow
-def test_a_kill_while_a_project_is_made_leaves_nothing_once_the_studio_starts_again(
-    tmp_path: Path, state: Path
-) -> None:
-    place = tmp_path / "a" / "place"
-    done = subprocess.run([sys.executable, "-c", _KILLED, str(place), str(state)], check=False)
-    assert done.returncode == -signal.SIGKILL
-    assert not place.exists()
-    clean_up(state)
-    assert not (tmp_path / "a").exists()
-
-
-def test_the_remains_of_a_kill_are_not_removed_where_a_journal_names_other_folders(tmp_path: Path, state: Path) -> None:
-    mine = tmp_path / "mine"
-    mine.mkdir()
-    (mine / "file").write_text("x")
-    state.mkdir()
-    (state / "building.json").write_text(json.dumps({"draft": str(mine), "parents": [str(mine)]}))
-    clean_up(state)
-    assert (mine / "file").exists()
 
 
 # Opening and leaving

@@ -57,8 +57,6 @@ export const api = {
     getJson<CheckResult>("api/checked", { asset, part }, stop),
   checkPictures: (asset: string, part: CheckResult["part"], unit: "m" | "mm", stop: AbortSignal) =>
     getJson<CheckPicture[]>("api/checked/pictures", { asset, part, unit }, stop),
-  checkPicture: (asset: string, name: string, version: string) =>
-    withQuery("api/checked/picture", { asset, name, v: version }),
   edit: (edit: AnyEdit) => postJson<EditReceipt>("api/edit", edit),
   undo: () => postJson<EditReceipt>("api/undo", {}),
   redo: () => postJson<EditReceipt>("api/redo", {}),

@@ -16,12 +16,10 @@ from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, Worker
 from meshforge.checks import Examination, Finding, Speed, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
-from meshforge.rendering import ColorBy, compare, draw_difference, encode_webp, render
+from meshforge.rendering import ColorBy, compare, draw_difference, render, to_data_url
 from meshforge.symbolic import SymbolicMesh, transfer_labels
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
-
     from meshforge.signoff import ResultStatus, ResultStatusWord
 
 
@@ -241,17 +239,17 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
             background=None,
             legend=False,
         )
-        return AssetPictures(_to_data_url(image), checks=checks, goals=goals)
+        return AssetPictures(to_data_url(image), checks=checks, goals=goals)
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)
-    changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
-    return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks, goals=goals)
+    changes = to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
+    return AssetPictures(to_data_url(pair[0]), to_data_url(pair[1]), changes, checks=checks, goals=goals)
 
 
 def _draw_checks(asset: ReportAsset, mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:
     if asset.checked is None:
         return ()
     drawn = draw_examination(mesh, asset.checked, CHECK_PICTURE_SIZE)
-    return tuple((words, _to_data_url(image)) for _, words, image in drawn)
+    return tuple((words, to_data_url(image)) for _, words, image in drawn)
 
 
 def _read_goal_pictures(asset: ReportAsset) -> Iterator[tuple[str, str]]:
@@ -260,7 +258,3 @@ def _read_goal_pictures(asset: ReportAsset) -> Iterator[tuple[str, str]]:
         if goal.picture and goal.picture.exists():
             picture = base64.b64encode(goal.picture.read_bytes()).decode()
             yield goal.describe(), f"data:image/png;base64,{picture}"
-
-
-def _to_data_url(image: Image) -> str:
-    return f"data:image/webp;base64,{base64.b64encode(encode_webp(image)).decode()}"

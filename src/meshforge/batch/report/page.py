@@ -14,7 +14,7 @@ from meshforge.batch.report import contents
 from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
-from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
+from meshforge.language import Program, Rule, explain, show, show_label
 from meshforge.rendering import DIFFERENCE_COLORS, UNLABELLED, label_colors, look_of
 from meshforge.symbolic import find_unchanged
 
@@ -29,10 +29,6 @@ _SETTINGS = {
 }
 _UNPRINTABLE = re.compile(r"[^\t\n\r\x20-\uD7FF\uE000-\uFFFD\U00010000-\U0010FFFF]")
 """Characters that no document can hold."""
-_TOKEN = re.compile(
-    r'(?P<text>"(?:[^"\\]|\\.)*")|(?P<direction>[+-][XYZ]\b)|(?P<number>\d[\d.eE+-]*)|(?P<word>[^\W\d]\w*)|=>|->'
-)
-_KEYWORDS = frozenset({"labels", "orient", "contact", "extremity", "snap", "as"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +113,6 @@ def write_report(
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
         rules=[_rule_row(k, rule, assets) for k, rule in enumerate(program.rules, 1)] if program else [],
-        highlight=partial(_tokenize, colors={show_label(label): color for label, color in colors.items()}),
         label_legend=_label_legend(assets, colors if labelled else {}),
         change_legend=_change_legend(assets) if any(shown.changes for shown in drawn) else None,
         kinds=_kinds(assets, [*statuses, *words]),
@@ -241,23 +236,3 @@ def _rule_row(number: int, rule: Rule, assets: Sequence[contents.ReportAsset]) -
         selected = f"{hulls} on {len(active)} of {pluralize(len(traces), 'asset')}"
         made = f"{sum(len(line.made) for line in active):,} made"
     return _RuleRow(show(rule), explain(rule), comment, selected, made)
-
-
-def _tokenize(text: str, colors: Mapping[str, str]) -> Iterator[tuple[str, str | None, str | None]]:
-    """Program text in pieces, each with its kind, None for what is none; labels also with their colours."""
-    done = 0
-    for match in _TOKEN.finditer(text):
-        yield text[done : match.start()], None, None
-        token, done = match.group(), match.end()
-        yield token, _token_kind(match, token), colors.get(token)
-    yield text[done:], None, None
-
-
-def _token_kind(match: re.Match[str], token: str) -> str:
-    if token in list_operators():
-        return "operator"
-    if token in ACTIONS:
-        return "action"
-    if token in _KEYWORDS or match.lastgroup is None:
-        return "keyword"
-    return match.lastgroup

@@ -1,4 +1,4 @@
-"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines, no shadows, for speed."""
+"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from meshforge.geometry import Floats, Ints
 from meshforge.rendering.annotation import INK, LabelAnchor, count_pixels, font, shorten, text_width
 from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
-from meshforge.rendering.paint import BORDER, LineStrengths, shade, trace_lines
+from meshforge.rendering.paint import LineStrengths, shade, trace_lines
 from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
-from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, find_steps, neighbour_slices
+from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, neighbour_slices
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -85,7 +85,7 @@ class LabelingCanvas:
             plain = self._to_image(_draw_surfaces(hits, np.tile(NEUTRAL, (len(colors), 1)), frame, camera), drawing)
         else:
             pixels = _draw_surfaces(visual, self.subject.visuals[1], frame, camera)
-            plain = self._to_image(pixels, self._trace_ink(visual, find_steps(visual, camera)))
+            plain = self._to_image(pixels, self._trace_ink(visual))
         hulls = self.subject.mesh.hulls
         seen = count_pixels(items, len(hulls)).tolist()
         visible = {hull.name: count for hull, count in zip(hulls, seen, strict=True)}
@@ -102,15 +102,9 @@ class LabelingCanvas:
             for k, number in self.subject.wanted.items()
         }
 
-    def _trace_ink(self, hits: RayHits, steps: Any = None) -> LineStrengths:
-        """How much of each pixel (h, w) the lines of a drawing cover, of 255; steps: pixels that are on a line besides.
-
-        Lines are soft.
-        """
-        drawn = trace_lines(hits, max(2, round(self.size / 512)))
-        if steps is not None:
-            drawn[steps & (drawn < BORDER)] = BORDER
-        share: Any = _STRENGTH[drawn]
+    def _trace_ink(self, hits: RayHits) -> LineStrengths:
+        """How much of each pixel (h, w) the lines of a drawing cover, of 255. Lines are soft."""
+        share: Any = _STRENGTH[trace_lines(hits, max(2, round(self.size / 512)))]
         for axis in (0, 1):
             mixed = 2 * share
             here, there = neighbour_slices(axis)

@@ -2,7 +2,7 @@
 the project: edits, undo and redo, learning, jobs, uploads.
 """
 
-from asyncio import wait, wrap_future
+from asyncio import gather, wait, wrap_future
 from collections.abc import Collection
 from concurrent.futures import Future
 from pathlib import Path
@@ -114,8 +114,9 @@ async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v:
     session.check_assets(asset)
     if not (v.isalnum() and v.isascii() and len(v) == 32):
         raise NotHereError("there is no such picture", where=asset)
-    data = await wrap_future(session.thumbnails.get(session.project, asset, of, v))
-    return Response(data, media_type="image/png", headers=_CACHE_FOREVER)
+    drawn = session.thumbnails.get(session.project, asset, of, v)
+    await gather(wrap_future(drawn), return_exceptions=True)
+    return Response(wait_for(drawn), media_type="image/png", headers=_CACHE_FOREVER)
 
 
 @router.get("/api/picture")
@@ -185,15 +186,6 @@ async def get_check_pictures(
     """Return the pictures of what is measured; unit: of the lengths in them."""
     session.check_assets(asset)
     return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part, unit))
-
-
-@router.get("/api/checked/picture")
-def get_check_picture(session: CurrentSession, asset: str, name: str, v: str) -> Response:
-    """Return one of these pictures; v: the digest on the card."""
-    session.check_assets(asset)
-    if not (v.isalnum() and v.isascii() and name.replace("-", "").isalpha() and name.isascii()):
-        raise NotHereError("there is no such picture", where=asset)
-    return Response(session.checks.read_picture(asset, v, name), media_type="image/png", headers=_CACHE_FOREVER)
 
 
 async def _wait_while_connected(request: Request, future: Future[Result]) -> Result:

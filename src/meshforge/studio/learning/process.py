@@ -23,9 +23,9 @@ from meshforge.store import MeshCache
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import (
     ProgramWithTemplates,
-    RuleSelector,
     build_outcome_view,
     measure_reach,
+    select_after,
     view_assessment,
 )
 from meshforge.studio.wire.family import AssessmentView
@@ -119,9 +119,8 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
     thresholds = project.settings.thresholds
     bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
     plan = _load_program(project, (Program.parse(program) if program else bare), rule)
-    memory = _memory_of(folder)
-    rows = memory.family.read_meshes(project, select_assets(project), token.stop)
-    return CoverageView(assets={asset: memory.selector.select(plan, mesh, wanted) for asset, mesh in rows})
+    rows = _memory_of(folder).family.read_meshes(project, select_assets(project), token.stop)
+    return CoverageView(assets={asset: select_after(plan, mesh, wanted) for asset, mesh in rows})
 
 
 def _load_program(project: Project, program: Program, before: int | None = None) -> ProgramWithTemplates:
@@ -160,7 +159,6 @@ class _Memory:
     """What stays in memory of a project."""
 
     family: FamilyCache = field(default_factory=FamilyCache)
-    selector: RuleSelector = field(default_factory=RuleSelector)
     last: _LastRun | None = None
 
 

@@ -4,7 +4,6 @@ select on each asset."""
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from weakref import WeakKeyDictionary
 
 from meshforge import synthesis
 from meshforge.batch import template_digests
@@ -14,7 +13,7 @@ from meshforge.signoff import Assessment, ReviewChoice, ReviewQuestion, ReviewSt
 from meshforge.studio.queries.programs import rule_views
 from meshforge.studio.wire import family
 from meshforge.studio.wire import program as wire
-from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.symbolic import SymbolicMesh
 
 
 def build_outcome_view(number: int, outcome: synthesis.LearningOutcome, looked_at: int) -> wire.OutcomeView:
@@ -131,39 +130,14 @@ def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -
     return wire.Reach(asset=asset, rules=tuple(rules))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _RuleMesh:
-    """An asset after the rules of a plan, None where they cannot be done; origins: of its hulls, in their order."""
-
-    key: tuple[str, str]
-    mesh: SymbolicMesh | None
-    origins: tuple[tuple[int, ...], ...] = ()
-
-
-class RuleSelector:
-    """Assets as they are before a rule. Those of the last call are cached: extractors are typed letter by letter."""
-
-    def __init__(self) -> None:
-        self._last: WeakKeyDictionary[SymbolicMesh, _RuleMesh] = WeakKeyDictionary()
-
-    def select(self, plan: ProgramWithTemplates, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
-        """Return positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the
-        hulls it selects were made of; empty where these rules cannot be done."""
-        after = self._last.get(mesh)
-        if after is None or after.key != plan.key:
-            after = self._last[mesh] = _run_rules(plan, mesh)
-        if after.mesh is None:
-            return ()
-        found = bits_of(select_mask(extractor, after.mesh, plan.program.extremity or EXTREMITY))
-        return tuple(sorted({own for k in found for own in after.origins[k]}))
-
-
-def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:
+def select_after(plan: ProgramWithTemplates, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
+    """Return positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the hulls
+    it selects were made of; empty where these rules cannot be done."""
     origins = HullOrigins(mesh)
     try:
         *_, last = plan.program.replay(mesh, plan.templates, memo=synthesis.memoize)
     except MeshForgeError:
-        return _RuleMesh(plan.key, None)
+        return ()
     for line in last.trace:
         origins.add(line.made, line.sources)
-    return _RuleMesh(plan.key, last.mesh, tuple(origins.of([hull.name]) for hull in last.mesh.hulls))
+    return origins.of(last.mesh.names_of(select_mask(extractor, last.mesh, plan.program.extremity or EXTREMITY)))

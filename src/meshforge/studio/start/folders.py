@@ -1,12 +1,15 @@
-"""Paths that a person types or picks on the start page, the folders of this machine, and the assets in them that a new
-project would have: which they are, and which of them have no hulls."""
+"""Paths that a person types or picks on the start page, the folders of this machine, that of a new project, and the
+assets that it would have: which they are, and which of them have no hulls."""
 
 import os
+import shutil
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, TimeoutError
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from secrets import token_hex
 from time import monotonic
 
 from meshforge.batch import SETTINGS, expand, find_sources
@@ -104,6 +107,55 @@ def suggest_project(name: str) -> Path:
     name = name.strip().strip(".") or "project"
     names = [name, f"{name}-project", *(f"{name}-project-{number}" for number in range(2, 1000))]
     return next((parent / one for one in names if not (parent / one).exists()), parent / name)
+
+
+def check_place(folder: Path) -> None:
+    """Raise UsageError where no new project can be made: something is there already, or it cannot be written."""
+    try:
+        if is_project(folder):
+            raise UsageError(
+                "there is a project here already", where=str(folder), remedy="Open it, or name another folder."
+            )
+        if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+            raise UsageError("there is a file or a link of this name", where=str(folder), remedy="Name another folder.")
+        if other := next(folder.iterdir(), None) if folder.exists() else None:
+            problem = f"this folder holds something already: {other.name}"
+            raise UsageError(problem, where=str(folder), remedy="Name a new folder, or an empty one.")
+        above = next(parent for parent in folder.parents if parent.exists())
+    except OSError as error:
+        raise _describe_refusal(folder, error) from None
+    if not above.is_dir():
+        raise UsageError("this is a file", where=str(above), remedy="Name a folder that lies in no file.")
+
+
+@contextmanager
+def build_project(folder: Path) -> Iterator[Path]:
+    """Open a new folder to fill, beside the place that it takes then; where an error came up, it goes.
+
+    After a kill there is no project, but maybe that hidden folder. Raises UsageError where no project can be made.
+    """
+    check_place(folder)
+    parents = [parent for parent in folder.parents if not parent.exists()]
+    draft = folder.parent / f".{folder.name[:80]}.{token_hex(4)}.new-project"
+    try:
+        draft.mkdir(parents=True)
+        yield draft
+        if folder.exists():
+            folder.rmdir()  # it is empty
+        draft.rename(folder)
+    except BaseException as error:
+        shutil.rmtree(draft, ignore_errors=True)
+        for parent in parents:
+            with suppress(OSError):  # something else is in it by now
+                parent.rmdir()
+        if isinstance(error, OSError):
+            raise _describe_refusal(folder, error) from None
+        raise
+
+
+def _describe_refusal(folder: Path, error: OSError) -> UsageError:
+    remedy = "Name a folder that you may write, on a disk with room."
+    return UsageError(f"the project cannot be written here: {error.strerror}", where=str(folder), remedy=remedy)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,12 +5,12 @@ import logging
 import os
 import shutil
 from collections.abc import Mapping
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import assert_never
-from uuid import uuid4
 
 from meshforge.batch import SETTINGS, hold_lock
 from meshforge.common import MeshForgeError, ProjectError, is_file
@@ -18,7 +18,6 @@ from meshforge.project import Project
 from meshforge.samples import FAMILIES, family_of, write_family
 from meshforge.store.layout import JsonFile, read_derived, write_json
 from meshforge.studio.start import folders
-from meshforge.studio.start.building import build_project, clean_up
 from meshforge.studio.transfers import Uploads
 from meshforge.studio.wire import start as wire
 from meshforge.studio.wire.start import RecentProject
@@ -35,14 +34,13 @@ class StartPage:
 
     def __init__(self, state: Path) -> None:
         self.recent = RecentProjects(state)
-        self._state = state
         self._workers = Workers(READERS)
         self._stack = ExitStack()
         self._uploads: Uploads | None = None
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
-        self._workers.start(folders.is_project, self._state)  # so that the first look is quick
+        self._workers.start(folders.is_project, Path.home())  # so that the first look is quick
 
     @property
     def view(self) -> wire.StartView:
@@ -61,8 +59,8 @@ class StartPage:
     def uploads(self) -> Uploads:
         """Files that were sent for a new project; in a folder that goes with this studio."""
         if self._uploads is None:
-            clean_up(self._state)
-            self._uploads = Uploads(_take_folder(self._stack, self._state / "uploads"))
+            home = self._stack.enter_context(TemporaryDirectory(prefix="meshforge-"))
+            self._uploads = Uploads(Path(home) / "uploads")
         return self._uploads
 
     def look_at_folder(self, folder: str) -> wire.AssetsFound:
@@ -92,13 +90,13 @@ class StartPage:
         match request:
             case wire.ProjectOfFolder():
                 assets = folders.parse_path(request.folder, "the folder of assets")
-                _create_of_folder(assets, project, self._state)
+                _create_of_folder(assets, project)
             case wire.ProjectOfUpload():
                 home, _ = self.uploads.list_files()
                 self.uploads.keep_readable(self._workers)  # raises ProjectError where nothing was sent
-                _create_of_upload(home, project, self._state)
+                _create_of_upload(home, project)
             case wire.ProjectOfFamily():
-                _create_of_family(request.family, project, self._state)
+                _create_of_family(request.family, project)
             case _:
                 assert_never(request)
         return project
@@ -118,19 +116,19 @@ class StartPage:
         self._stack.close()
 
 
-def _create_of_folder(assets: Path, project: Path, state: Path) -> None:
+def _create_of_folder(assets: Path, project: Path) -> None:
     """Make a project of the assets in a folder, which stay where they are. Raises UsageError for either folder."""
     folders.check_folder(assets)
     if folders.is_project(assets):
         raise ProjectError("this folder is a project itself", where=str(assets), remedy="Open it instead.")
-    with build_project(project, state) as draft:
+    with folders.build_project(project) as draft:
         # seen from the draft, everything lies where it lies from the project that it becomes
         Project.create(draft, [assets], name=project.name)
 
 
-def _create_of_upload(upload: Path, project: Path, state: Path) -> None:
+def _create_of_upload(upload: Path, project: Path) -> None:
     """Make a project of uploaded files, which come into its own folder. upload: the folder they lie in, which goes."""
-    with build_project(project, state) as draft:
+    with folders.build_project(project) as draft:
         home = draft / ASSETS_FOLDER
         shutil.move(upload, home)
         try:
@@ -140,10 +138,10 @@ def _create_of_upload(upload: Path, project: Path, state: Path) -> None:
             raise
 
 
-def _create_of_family(name: str, project: Path, state: Path) -> None:
+def _create_of_family(name: str, project: Path) -> None:
     """Make a project of a bundled family. Raises UsageError for a name that no family has."""
     family = family_of(name)
-    with build_project(project, state) as draft:
+    with folders.build_project(project) as draft:
         home = draft / ASSETS_FOLDER
         write_family(family, home)
         Project.create(draft, [home / family.pattern], name=project.name, vocabulary=family.vocabulary)
@@ -153,20 +151,6 @@ def _innermost_folder(home: Path) -> Path:
     """The folder that ids count from: the one folder that was sent, where all files lie in it."""
     inside = list(home.iterdir())
     return inside[0] if len(inside) == 1 and inside[0].is_dir() else home
-
-
-def _take_folder(stack: ExitStack, home: Path) -> Path:
-    """A folder that no other studio uses; those of studios that are gone are removed."""
-    key = uuid4().hex
-    stack.enter_context(hold_lock(home / f"{key}.lock", str(home)))
-    stack.callback((home / f"{key}.lock").unlink, missing_ok=True)
-    for lock in home.glob("*.lock"):
-        with suppress(MeshForgeError, OSError):  # its studio runs
-            if lock.stem != key:
-                with hold_lock(lock, str(lock), wait=0):
-                    shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
-                    lock.unlink(missing_ok=True)
-    return home / key
 
 
 _LOG = logging.getLogger(__name__)

@@ -192,7 +192,7 @@ class CheckResult(Wire):
 
 
 class CheckPicture(Wire):
-    """A picture. name: the one that its address takes; text: what it shows."""
+    """A picture. text: what it shows; source: itself, as an address `data:…`."""
 
-    name: str
     text: str
+    source: str

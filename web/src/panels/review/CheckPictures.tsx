@@ -46,11 +46,11 @@ function Pictures({ asset, version, part }: PartId) {
     );
   }
   if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to draw.</p>;
-  return drawn.pictures.map(({ name, text }) => {
+  return drawn.pictures.map(({ text, source }) => {
     const words = toSentence(textIn(text, unit));
     return (
-      <figure key={name}>
-        <EnlargeablePicture source={api.checkPicture(asset, name, version)} text={words} />
+      <figure key={text}>
+        <EnlargeablePicture source={source} text={words} />
         <figcaption>{words}</figcaption>
       </figure>
     );
@@ -81,10 +81,12 @@ function focusWhole(event: Event): void {
   if (event.currentTarget instanceof HTMLElement) event.currentTarget.focus();
 }
 
-/** A picture of the server as an address that an image can show, undefined until it is there. */
+/** A picture as an address that an image can show, undefined until it is there. */
 function useFetched(source: string): string | undefined {
   const [shown, setShown] = useState<string>();
+  const isWhole = source.startsWith("data:");
   useEffect(() => {
+    if (isWhole) return;
     let made: string | undefined;
     let wanted = true;
     getBlob(source).then((picture) => {
@@ -94,8 +96,8 @@ function useFetched(source: string): string | undefined {
       wanted = false;
       if (made !== undefined) URL.revokeObjectURL(made);
     };
-  }, [source]);
-  return shown;
+  }, [source, isWhole]);
+  return isWhole ? source : shown;
 }
 
 /** A picture that a click shows large, over everything else. */
