@@ -1,5 +1,5 @@
 """Labels that follow from all that is said of a family: files, names, people and models weighed together, beside the
-hulls that look alike; and the labels that the sources gave, restored."""
+hulls that look alike."""
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
@@ -20,7 +20,7 @@ class PropagationLabeler(Labeler):
     """Gives each hull the label that all labels of the family together support; labels of people stay.
 
     Each source counts as far as it is right in this family, beside the labels of hulls that look alike. A label that it
-    is right about stays as that source gave it; one that was replaced is kept beside the new one, for `SourceRestorer`.
+    is right about stays as that source gave it; one that was replaced is kept beside the new one, and counts again.
     Doing it again changes nothing. Descriptions of the hulls are kept in the project, so that the next time is quick.
     Raises ProjectError: no vocabulary, no label to begin with; StoppedError on a stop.
     """
@@ -171,37 +171,3 @@ def _reason_of(current: Label | None, label: Label, known: LabelReason | None, h
         return known
     by = "likeness" if label.source in symbolic.INFERRED_SOURCES else "its source"
     return (f"{by}, not {current.name}" if current and current.name != label.name else by), hull
-
-
-class SourceRestorer(Labeler):
-    """Restores the labels of sources where labels were inferred: a hull that had none before has none then.
-
-    It undoes `PropagationLabeler`.
-    """
-
-    name = "sources"
-    about = "labels as their sources gave them, before they were propagated"
-    replaces = True
-
-    def propose(self, family: LabelFamily) -> LabelProposal:
-        return LabelProposal(_restore(family))
-
-    def can_replace(self, current: Label | None, given: Label | None) -> bool:
-        return label_model.evidence_of(current) == given
-
-
-def _restore(family: LabelFamily) -> Generator[AssetLabels, None, None]:
-    for asset, facts in family.iterate_facts():
-        if facts.error:
-            yield AssetLabels(asset, error=facts.error)
-            continue
-        try:
-            current = match_labels(family.store.labels(asset), facts.hulls).labels
-        except AssetError as error:
-            yield AssetLabels(asset, error=error.message)
-            continue
-        inferred = {hull: label for hull, label in current.items() if label.source in symbolic.INFERRED_SOURCES}
-        reasons = {hull: (f"not {label.name}", hull) for hull, label in inferred.items()}
-        yield AssetLabels(
-            asset, facts.hulls, {hull: label_model.evidence_of(label) for hull, label in current.items()}, reasons
-        )

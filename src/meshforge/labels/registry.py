@@ -11,7 +11,7 @@ from typing import Any
 from meshforge.batch import WorkerFailure, execute
 from meshforge.common import Plugin, Registry, UsageError, blame, describe_error, suggest_among
 from meshforge.labels.from_files.label_by_files import FileLabeler
-from meshforge.labels.label_by_inference import AllLabeler, PropagationLabeler, SourceRestorer
+from meshforge.labels.label_by_inference import AllLabeler, PropagationLabeler
 from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.names.label_by_names import NameLabeler
@@ -26,7 +26,6 @@ _BUILT_IN: tuple[type[Labeler], ...] = (
     PropagationLabeler,
     LikeLabeler,
     VlmLabeler,
-    SourceRestorer,
 )
 
 

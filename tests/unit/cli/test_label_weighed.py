@@ -1,4 +1,4 @@
-"""`meshforge label --with propagate` and `--with sources`: what they say, in words and as JSON."""
+"""`meshforge label --with propagate`: what it says, in words and as JSON."""
 
 from __future__ import annotations
 
@@ -30,12 +30,6 @@ label   from                names      hulls   assets   confidence
 top     likeness, not leg   top            1        1   SURE
 leg     likeness            left_low       1        1   SURE
 2 labels would be taken; 0 hulls left without one; 34 hulls would stay as they are. Nothing was written."""
-SHOWN_BACK = """\
-label    from      names      hulls   assets   confidence
-─────────────────────────────────────────────────────────
-leg      not top   top            1        1   0.80
-(none)   not leg   left_low       1        1
-1 label would be taken; 1 hull left without one; 34 hulls would stay as they are. Nothing was written."""
 DONE = """\
 t0.obj: 0 labels taken, 6 there already
 t1.obj: 1 label taken, 5 there already
@@ -53,13 +47,10 @@ no label                           0
 1 hull got a label; 1 label was replaced:
     leg -> top: 1 hull in 1 asset
 If some are wrong, label or correct this one next:"""
-BACK = """\
-1 hull lost a label that was inferred; 1 label was replaced:
-    top -> leg: 1 hull in 1 asset"""
 
 
 @pytest.mark.slow
-def test_it_shows_what_it_would_do_does_it_and_takes_it_back(run: Run, tmp_path: Path) -> None:
+def test_it_shows_what_it_would_do_and_does_it(run: Run, tmp_path: Path) -> None:
     before = tree(tmp_path / "p/labels")
     shown = run("label", "p", "--with", "propagate", "--dry-run")
     assert (shown.code, SURE.sub("SURE", told(shown.out)), shown.err) == (0, SHOWN, "")
@@ -69,11 +60,6 @@ def test_it_shows_what_it_would_do_does_it_and_takes_it_back(run: Run, tmp_path:
     assert told(done.out).replace(f"{tmp_path}/", "").rpartition(" ")[0] == DONE
     again = told(run("label", "p", "--with", "propagate").out)
     assert "\nEvery hull keeps its label.\n" in again and again.count("0 labels taken, 6 there already") == 6
-    assert told(run("label", "p", "--with", "sources", "--dry-run").out) == SHOWN_BACK
-    back = told(run("label", "p", "--with", "sources").out).replace(f"{tmp_path}/", "")
-    assert "t2.obj: 0 labels taken, 5 there already, 1 hull without a label\n" in back and back.endswith(BACK)
-    assert tree(tmp_path / "p/labels") == before
-    assert told(run("label", "p", "--with", "sources").out).endswith("\nEvery hull keeps its label.")
 
 
 @pytest.mark.slow
@@ -84,8 +70,6 @@ def test_json_says_the_same(run: Run) -> None:
     new, replaced = {"was": None, "label": "leg"}, {"was": "leg", "label": "top"}
     assert last["changes"] == [{**new, "hulls": 1, "assets": 1}, {**replaced, "hulls": 1, "assets": 1}]
     assert last["alike"] == [] and last["next"].endswith(".obj")
-    back = json.loads(run("label", "p", "--with", "sources", "--json").out.splitlines()[-1])
-    assert [(row["was"], row["label"]) for row in back["changes"]] == [("leg", None), ("top", "leg")]
 
 
 @pytest.mark.slow
@@ -128,7 +112,7 @@ def test_without_any_label_there_is_one_error_with_the_remedy(run: Run, tmp_path
     ("words", "message"),
     [
         (("--with", "propagate", "--labels", "p"), "--labels is for --with file"),
-        (("--with", "sources", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
+        (("--with", "propagate", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
         (("--with", "propagate", "--model", "x"), "--model is for --with vlm"),
     ],
 )

@@ -54,7 +54,7 @@ def test_a_wrong_label_is_replaced_a_missing_one_found_and_right_ones_stay_as_th
     assert [report.taken for report in result.outcomes] == [0, 1, 1, 0, 0, 0]
 
 
-def test_again_changes_nothing_and_what_sources_said_comes_back_byte_for_byte(tmp_path: Path) -> None:
+def test_again_changes_nothing(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
     project.label("propagate")
@@ -62,11 +62,6 @@ def test_again_changes_nothing_and_what_sources_said_comes_back_byte_for_byte(tm
     again = project.label("propagate")
     assert tree(project.folder / "labels") == after != before
     assert again.changes == () and not any(report.taken for report in again.outcomes)
-    restored = project.label("sources")
-    assert tree(project.folder / "labels") == before
-    assert restored.changes == (LabelChange("leg", None, 1, 1), LabelChange("top", "leg", 1, 1))
-    assert [report.taken for report in restored.outcomes] == [0, 1, 0, 0, 0, 0]
-    assert [report.unlabelled for report in restored.outcomes] == [0, 0, 1, 0, 0, 0]
 
 
 def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
@@ -79,20 +74,16 @@ def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     assert tree(project.folder / "labels") == before
 
 
-def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_path: Path) -> None:
+def test_words_outside_of_the_vocabulary_say_nothing_but_are_kept(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     project.set_labels("t4.obj", {"crumb": "misc", "right_low": "misc"})
     project.set_labels("t5.obj", {"crumb": "leg"})
     project.set_vocabulary(("top", "leg"))
-    before = tree(project.folder / "labels")
     project.label("propagate")
     labels = labels_of(project)
     assert labels["t4.obj", "crumb"] == labels["t4.obj", "right_low"] == Label("misc")
     assert labels["t0.obj", "crumb"].name == "leg"
     assert labels["t0.obj", "crumb"].given == Label("misc", 0.8, "vlm")
-    project.set_vocabulary(("top", "leg", "misc"))
-    project.label("sources")
-    assert tree(project.folder / "labels") == before
 
 
 @pytest.mark.parametrize(("source", "sure"), [("user", 1.0), ("file", 1.0), ("file", 0.6)])
@@ -151,12 +142,6 @@ def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     assert shown.labelled == 6 * len(NAMES) - 2
     project.label("propagate")
     assert project.label("propagate", dry_run=True).proposals.rows == ()
-    back = project.label("sources", dry_run=True).proposals
-    assert [(row.label, row.kind, row.hulls) for row in back.rows] == [("leg", "not top", 1)]
-    assert [(row.label, row.kind, row.hulls) for row in back.left] == [(None, "not leg", 1)]
-    assert back.labelled == 6 * len(NAMES) - 2
-    project.label("sources")
-    assert project.label("sources", dry_run=True).proposals.rows == ()
 
 
 ANSWERS = st.lists(
@@ -174,14 +159,14 @@ ANSWERS = st.lists(
 
 @examples(25)
 @given(said=ANSWERS)
-def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_back(
+def test_whatever_is_said_people_stay_and_again_changes_nothing(
     tmp_path_factory: pytest.TempPathFactory, said: list[tuple[str, str, str, str, float]]
 ) -> None:
     project = family(tmp_path_factory.mktemp("family"))
     for source, asset, hull, label, sure in said:
         by = cast(LabelSource, source)
         project.set_labels(asset, {hull: label}, source=by, confidence=1.0 if by == "user" else sure)
-    files, before = tree(project.folder / "labels"), labels_of(project)
+    before = labels_of(project)
     project.label("propagate")
     once, after = tree(project.folder / "labels"), labels_of(project)
     assert all(after[place] == told for place, told in before.items() if told.source in HUMAN_SOURCES)
@@ -192,8 +177,6 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
     project.label("propagate") if any(label.source == "user" for label in before.values()) else None
     project.label("propagate")
     assert tree(project.folder / "labels") == once
-    project.label("sources")
-    assert tree(project.folder / "labels") == files
 
 
 def test_all_keeps_what_files_elsewhere_and_models_gave_beside_names(tmp_path: Path) -> None:
