@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -21,7 +20,7 @@ from meshforge.language.extractors.base import (
     Leaf,
 )
 from meshforge.language.orient import LandmarkPair, Orient
-from meshforge.language.print import CommentLines, Comments, Rule
+from meshforge.language.print import Comments, Rule
 from meshforge.language.registry import ACTIONS, EXTRACTORS, OperationRegistry, make_operation
 from meshforge.language.text import (
     Node,
@@ -51,7 +50,6 @@ _TOKEN_KINDS: dict[str, arguments.TokenKind] = {
     "DIRECTION": "direction",
     "QUANTITY": "quantity",
 }
-_TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 def parse_extractor(text: str, name: str = "extractor") -> Extractor:
@@ -153,35 +151,6 @@ def _find_plugin_leaf(source: ProgramText, offset: int, accepted: Set[str]) -> t
         raise source.error_at(offset, error.problem, error.remedy) from None
     is_known = issubclass(kind, BaseExtractor) or "_UNION" in accepted
     return kind if is_known else None
-
-
-def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
-    """Return the comments of the statements on some lines (from 1, rising), and those after the last one.
-
-    A comment alone on its line belongs to the next statement; empty lines between are kept, several as one.
-    """
-    found = [_comment_of(line) for line in text.split("\n")]
-    comments, done = [], 0
-    for line in lines:
-        comments.append(Comments(_squeeze_blanks(found[done : line - 1], first=done == 0), found[line - 1]))
-        done = line
-    end = _squeeze_blanks(found[done:], first=done == 0)
-    return comments, end[:-1] if end[-1:] == (None,) else end
-
-
-def _comment_of(line: str) -> str | None:
-    for match in _TEXT_OR_COMMENT.finditer(line):
-        if match["comment"] is not None:
-            return match["comment"].rstrip()
-    return None
-
-
-def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines:
-    out: list[str | None] = []
-    for line in lines:
-        if line is not None or (out[-1] is not None if out else not first):
-            out.append(line)
-    return tuple(out)
 
 
 def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
@@ -292,7 +261,6 @@ def build_operation(text: TreeReader, tree: Node, registry: OperationRegistry[An
     kind = text.locate_errors(name, lambda: registry.get(name))
     if kind is None:
         raise _unknown_operation(text.source, start_of(name), registry)
-    _refuse_planned(text, kind, parts)
     takes, needed = kind.arguments(), kind.min_arguments()
     if len(parts) < needed:
         raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
@@ -308,15 +276,6 @@ def build_operation(text: TreeReader, tree: Node, registry: OperationRegistry[An
     if problem:
         raise problem
     return make_operation(kind, given)
-
-
-def _refuse_planned(text: TreeReader, kind: type[arguments.Operation], parts: Iterable[Node | Token]) -> None:
-    """Raise ProgramError for an option of the language that this version does not run."""
-    for part in parts:
-        word = text.source.piece_at(start_of(part))
-        if word in kind.planned:
-            problem = f"this version does not run the option {quote_code(word)} of {kind.word()}"
-            raise text.error_at(part, problem, "Leave it out.")
 
 
 def _build_option(

@@ -1,6 +1,8 @@
 """Rules, and every node below a program in words: as text in canonical form, of which `parse` is the inverse, and in
 plain sentences for people who do not read the language."""
 
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import assert_never
 
@@ -13,6 +15,7 @@ from meshforge.language.words import check_label, quote_label, show_label
 
 CommentLines = tuple[str | None, ...]
 """Comment lines without their `#`; None is an empty line."""
+_TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +24,35 @@ class Comments:
 
     above: CommentLines = ()
     beside: str | None = None
+
+
+def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
+    """Return the comments of the statements on some lines (from 1, rising), and those after the last one.
+
+    A comment alone on its line belongs to the next statement; empty lines between are kept, several as one.
+    """
+    found = [_comment_of(line) for line in text.split("\n")]
+    comments, done = [], 0
+    for line in lines:
+        comments.append(Comments(_squeeze_blanks(found[done : line - 1], first=done == 0), found[line - 1]))
+        done = line
+    end = _squeeze_blanks(found[done:], first=done == 0)
+    return comments, end[:-1] if end[-1:] == (None,) else end
+
+
+def _comment_of(line: str) -> str | None:
+    for match in _TEXT_OR_COMMENT.finditer(line):
+        if match["comment"] is not None:
+            return match["comment"].rstrip()
+    return None
+
+
+def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines:
+    out: list[str | None] = []
+    for line in lines:
+        if line is not None or (out[-1] is not None if out else not first):
+            out.append(line)
+    return tuple(out)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from meshforge.language.actions.edit import Template, check_templates
 from meshforge.language.arguments import show_number
 from meshforge.language.extractors.base import Extractor, labels_of, rename_in_extractor
 from meshforge.language.orient import Orient, rename_in_orient
-from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
+from meshforge.language.print import CommentLines, Comments, Rule, attach_comments, show, show_rule
 from meshforge.language.replay import Memo, Replay, RuleTrace, make_anew
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.language.words import check_declared, check_label, check_threshold, show_label
@@ -220,7 +220,7 @@ def _build_program(source: ProgramText, tree: Node) -> Program:
     headers = parse.collect_headers(text, [node for node in statements if node.data != "rule"])
     labels = parse.build_labels(text, headers["labels"]) if "labels" in headers else ()
     text = TreeReader(source, labels)
-    comments, end = parse.attach_comments(source.text, [node.meta.line for node in statements])
+    comments, end = attach_comments(source.text, [node.meta.line for node in statements])
     of = dict(zip(map(id, statements), comments, strict=True))
     return Program(
         labels,

@@ -104,7 +104,6 @@ class Merge(Action):
 class Scale(Action):
     """Scales the selected hulls as one group about the centre of their bounding box, along one axis or all."""
 
-    planned: ClassVar[tuple[str, ...]] = ("to",)
     key: ClassVar[str] = "S"
     icon: ClassVar[ActionIcon] = "scale"
     axis: Axis = field(
@@ -161,7 +160,6 @@ class Shrink(Action):
 class Each(Action):
     """Does the action to every connected component of the selected hulls, body by body."""
 
-    planned: ClassVar[tuple[str, ...]] = ("by",)
     action: Action = field(metadata={"argument": ActionArgument()})
 
     def conflict(self) -> str | None:

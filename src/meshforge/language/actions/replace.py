@@ -41,7 +41,6 @@ class Replace(Action):
     """Replaces the selected hulls of each body by a primitive or a template that fills their bounding box."""
 
     by_body: ClassVar[bool] = True
-    planned: ClassVar[tuple[str, ...]] = ("to",)
     key: ClassVar[str] = "R"
     icon: ClassVar[ActionIcon] = "replace"
     geometry: str = field(metadata={"argument": arguments.PrimitiveOrFileArgument(), "title": "By"})
