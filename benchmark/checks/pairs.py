@@ -57,8 +57,9 @@ def measure(tell: Tell, quick: bool) -> Result:
             f"{_STEPS} places of a joint's range, the others at rest. *Lost*: bodies that touched before, however "
             "deep, were not confirmed, and do not touch any more. The proposals have no part in either. What would "
             "make it fail: a pair that the sweep passes over, names that are others in the file, an exclusion of more.",
-            "*Doubtful* proposals are not in `--exclude all`: bodies that stop a joint, are mostly in each other, or "
-            "are no neighbours, whose contact may be meant.",
+            "*Doubtful* proposals are not in `--exclude all`, after which their contacts are left: bodies that stop a "
+            "joint, whose overlap `--physics` calls an error, or that are no neighbours, whose contact may be meant. "
+            "Joints without limits are moved neither here nor there.",
         ),
         tuple(rows),
     )
@@ -74,12 +75,21 @@ def list_assets() -> list[str]:
 
 def try_asset(asset: str) -> Row:
     """What MuJoCo says of an asset before and after."""
-    empty: Row = {"asset": asset, "untried": "", "proposed": 0, "doubtful": 0, "before": [], "left": [], "lost": []}
+    empty: Row = {
+        "asset": asset,
+        "untried": "",
+        "proposed": 0,
+        "doubtful": 0,
+        "before": [],
+        "left": [],
+        "lost": [],
+        "left_by_all": [],
+    }
     with TemporaryDirectory() as name:
         before, after = Path(name) / "before" / "asset.xml", Path(name) / "after" / "asset.xml"
         done = _run("convert", str(corpus() / asset), str(before), "--concave", "hull")
         if done.returncode:
-            return empty | {"untried": done.stderr.splitlines()[-1].replace(str(corpus()), "")}
+            return empty | {"untried": next(line for line in done.stderr.splitlines() if line.startswith("error"))}
         line = json.loads(_run("check", "--pairs", "--json", "--workers", "1", str(before)).stdout)
         if "pairs" not in line:
             return empty | {"untried": "; ".join(line.get("notes", ())) or str(line["error"])}
@@ -88,7 +98,9 @@ def try_asset(asset: str) -> Row:
         words = [word for pair in chosen for word in ("--exclude", pair)]
         done = _run("convert", str(before), str(after), *words)
         if done.returncode:
-            return empty | {"untried": done.stderr.splitlines()[0]}
+            return empty | {"untried": next(line for line in done.stderr.splitlines() if line.startswith("error"))}
+        usual = Path(name) / "usual" / "asset.xml"
+        _run("convert", str(before), str(usual), "--exclude", "all")
         try:
             if not has_joints(before):
                 return empty | {"untried": _STILL}
@@ -101,6 +113,7 @@ def try_asset(asset: str) -> Row:
             "doubtful": sum(bool(pair["fault"]) for pair in found),
             "before": sorted(deep),
             "left": sorted(left),
+            "left_by_all": sorted(list_contacts(usual)[0]),
             "lost": sorted(touching - confirmed - still),
         }
 
@@ -152,15 +165,15 @@ def _measure_diagonal(model: Any, data: Any) -> float:
     return float(np.linalg.norm(high - low))
 
 
-_COLUMNS = ("asset", "proposed", "of these doubtful", "unwanted before", "after", "wanted lost")
+_COLUMNS = ("asset", "proposed", "of these doubtful", "unwanted before", "after", "after `all`", "wanted lost")
 
 
 def _list_assets(rows: Sequence[Row]) -> Iterator[tuple[Cell, ...]]:
     for row in rows:
-        counts = (len(row[key]) for key in ("before", "left", "lost"))
+        counts = (len(row[key]) for key in ("before", "left", "left_by_all", "lost"))
         yield row["asset"], row["proposed"], row["doubtful"], *counts
     yield (
         "all",
         *(sum(row[key] for row in rows) for key in ("proposed", "doubtful")),
-        *(sum(len(row[key]) for row in rows) for key in ("before", "left", "lost")),
+        *(sum(len(row[key]) for row in rows) for key in ("before", "left", "left_by_all", "lost")),
     )

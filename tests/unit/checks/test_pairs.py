@@ -129,17 +129,17 @@ def test_a_pair_that_cannot_be_is_one_error_and_nothing_is_written(
     assert refused.code == 2 and said in refused.err and not Path("out.xml").exists()
 
 
-def test_a_body_without_a_name_in_the_file_cannot_be_excluded(tmp_path: Path, run: Run) -> None:
+def test_a_body_without_a_name_in_the_file_gets_one(tmp_path: Path, run: Run) -> None:
     put(tmp_path, {"c.xml": CABINET.replace(' name="drawer"', "")})
     (name,) = {hull.body for hull in load(tmp_path / "c.xml")} - {"carcass", "door"}
-    refused = run("convert", "c.xml", "out.xml", "--exclude", f"carcass:{name}")
-    assert refused.code == 2 and "Give both bodies names in the file." in refused.err and not Path("out.xml").exists()
+    assert run("convert", "c.xml", "out.xml", "--exclude", f"carcass:{name}").code == 0
+    assert contacts(Path("out.xml")) == {(name, "door")}
 
 
 def test_a_drawer_that_its_carcass_fills_is_proposed_with_a_doubt_that_all_leaves_out(tmp_path: Path, run: Run) -> None:
     put(tmp_path, {"c.xml": CABINET.replace('pos="0 0 .003"', 'pos="0 0 -.01"')})
     told = run("check", "c.xml", "--pairs")
-    assert "not in `all`: more than half of one is in the other" in told.out
+    assert "not in `all`: `--physics` finds an error in it" in told.out
     mesh, excluded = exclude_pairs(load(tmp_path / "c.xml"), ["all"])
     assert excluded == () and mesh.asset and mesh.asset.mechanism.added == ()
 

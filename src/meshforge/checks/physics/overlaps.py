@@ -49,6 +49,11 @@ class BodyOverlap:
     excluded: bool = False
     share: float = 0.0
 
+    def is_wrong(self, scale: float) -> bool:
+        """Return whether it cannot be meant; scale: the diagonal [m]."""
+        is_jammed = self.depth > JAMMED * scale or self.share > WITHIN
+        return self.depth > DEEP * scale and not self.excluded and (is_jammed or not self.joined)
+
 
 def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree, *, near_axes: bool = False) -> tuple[BodyOverlap, ...]:
     """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
@@ -129,7 +134,7 @@ def _near(hull: Hull, others: Sequence[Hull]) -> list[Hull]:
 def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[Finding]:
     """Yield errors on bodies that cannot be meant to be in each other, warnings on others; scale: the diagonal [m]."""
     deep = [one for one in overlaps if one.depth > DEEP * scale and not one.excluded]
-    wrong = [one for one in deep if not one.joined or one.depth > JAMMED * scale or one.share > WITHIN]
+    wrong = [one for one in deep if one.is_wrong(scale)]
     doubtful = [one for one in deep if one not in wrong]
     kinds: tuple[tuple[Severity, list[BodyOverlap]], ...] = (("error", wrong), ("warning", doubtful))
     for severity, some in kinds:

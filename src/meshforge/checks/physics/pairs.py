@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from meshforge.checks.base import CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.physics.mechanism import JointTree
-from meshforge.checks.physics.overlaps import DEEP, NEARLY, WITHIN, find_body_overlaps, list_sweeps, measure_near
+from meshforge.checks.physics.overlaps import DEEP, NEARLY, find_body_overlaps, list_sweeps, measure_near
 from meshforge.checks.physics.scene import mm
 from meshforge.common import UsageError, join_names, pluralize, require_mujoco, suggest_among
 from meshforge.symbolic import SymbolicMesh
@@ -95,19 +95,18 @@ def propose_pairs(mesh: SymbolicMesh) -> tuple[PairProposal, ...]:
     if len({hull.body for hull in mesh.hulls}) < 2:
         return ()
     tree, least = JointTree.of(mesh), DEEP * mesh.diagonal
+    wrong = {frozenset(one.bodies) for one in find_body_overlaps(mesh, tree) if one.is_wrong(mesh.diagonal)}
     found: dict[frozenset[str], PairProposal] = {}
     for overlap in find_body_overlaps(mesh, tree, near_axes=True):
         if overlap.depth > least and not overlap.excluded:
-            fault = "more than half of one is in the other" if overlap.share > WITHIN else ""
+            fault = "`--physics` finds an error in it" if frozenset(overlap.bodies) in wrong else ""
             pair = PairProposal(overlap.bodies, overlap.hulls, overlap.depth, "at rest", fault)
             found.setdefault(frozenset(overlap.bodies), pair)
-    swept = dict[frozenset[str], PairProposal]()
     for pair in _list_swept(mesh, tree, least):
-        key = frozenset(pair.bodies)
-        if key not in found and (key not in swept or swept[key].depth < pair.depth):
-            first = swept.get(key, pair)
-            swept[key] = replace(pair, where=first.where, fault=first.fault or pair.fault)
-    return tuple(sorted({**found, **swept}.values(), key=lambda pair: (-pair.depth, pair.bodies)))
+        first = found.setdefault(frozenset(pair.bodies), pair)
+        deeper = max(first, pair, key=lambda one: one.depth)
+        found[frozenset(pair.bodies)] = replace(deeper, where=first.where, fault=first.fault or pair.fault)
+    return tuple(sorted(found.values(), key=lambda pair: (-pair.depth, pair.bodies)))
 
 
 def _list_swept(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[PairProposal]:
@@ -116,15 +115,16 @@ def _list_swept(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[P
 
     rigid, bodies = tree.rigid_roots(), {hull.name: hull.body for hull in mesh.hulls}
     for sweep in list_sweeps(mesh, tree, least):
-        joint, near = sweep.joint, measure_near(sweep.joint, sweep.moving)
+        joint, near, known = sweep.joint, measure_near(sweep.joint, sweep.moving), set[frozenset[str]]()
         for at, touches in sweep.looks:
+            known |= {touch.pair for touch in touches} if at == sweep.start else set()
             where = f"as {joint.name or joint.child} moves, {describe_place(at, sweep.motion)} and on"
             for touch in touches:
                 hulls = [name.rpartition(" (")[0] for name in (touch.mover, touch.other)]
                 own, other = (bodies[name] for name in hulls)
                 alone = {rigid[own], rigid[other]} == {rigid[joint.child], rigid[joint.parent]}
                 early = abs(at - sweep.start) < NEARLY * abs(sweep.end - sweep.start)
-                stops = early and joint.measure_distance(touch.at[None]) > near
+                stops = early and touch.pair not in known and joint.measure_distance(touch.at[None]) > near
                 fault = f"it stops {joint.name or joint.child} on its way" if stops else ""
                 fault = fault if alone else "they are no neighbours, so that the contact may be meant"
                 yield PairProposal((own, other), (hulls[0], hulls[1]), touch.depth, where, fault)

@@ -1,8 +1,7 @@
 """Writing an edited MJCF: other geoms, all else byte for byte as it was, compiled again before it is given out."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from meshforge.formats.base import Mass, Output
 from meshforge.formats.mjcf import collision_only, compiler, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.geom_edits import GeomEdits
-from meshforge.formats.mjcf.model import MjcfModel, compile_tree
+from meshforge.formats.mjcf.model import MjcfModel, compile_tree, read_excludes
 from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
 from meshforge.geometry import Shape
@@ -31,9 +30,8 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     """
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
-    if not collision_pieces.is_edited(asset, document.names):
-        texts = _add_excludes(asset, tree, [source.raw for source in tree.sources])
-        return _build_output(tree, texts, {}, copies, notes, {})
+    if not (collision_pieces.is_edited(asset, document.names) or asset.mechanism.added):
+        return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
     try:
         before = compile_tree(tree, compiler.drop_scaling)
     except AssetError:
@@ -45,40 +43,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     if edit.masses.bodies and edit.masses.are_ignored:
         bodies = join_names([before.body_names[k] for k in edit.masses.bodies], 3)
         notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
-    texts = _add_excludes(asset, tree, texts, edit.maker.files.made)
     return _build_output(tree, texts, edit.maker.files.made, copies, notes, edit.geoms.names)
-
-
-def _add_excludes(
-    asset: Asset, tree: MjcfTree, texts: list[bytes], made: Mapping[str, bytes] = MappingProxyType({})
-) -> list[bytes]:
-    """The texts with the pairs of bodies that are not to touch in the main one. Raises AssetError where MuJoCo refuses
-    them, as of a body that has no name in the file."""
-    if not (pairs := asset.mechanism.added):
-        return texts
-    text = xml.XmlText.of(texts[0])
-    root, lines = xml.parse_xml(text.data, str(asset.path)), [elements.exclude_tag(*pair) for pair in pairs]
-    splice = _append_to(text.data, root, [*root.each("contact")], "contact", lines)
-    after = [text.encode(xml.apply_splices(text.data, [splice])), *texts[1:]]
-    files = dict(zip((source.path for source in tree.sources), after, strict=True))
-    try:
-        compile_tree(read_tree(asset.path, files | {asset.path.parent / name: data for name, data in made.items()}))
-    except AssetError as error:
-        problem, remedy = f"with the excluded pairs: {error.problem}", "Give both bodies names in the file."
-        raise AssetError(problem, where=str(asset.path), remedy=remedy) from None
-    return after
-
-
-def _append_to(
-    data: bytes, root: xml.Element, parents: Sequence[xml.Element], tag: str, texts: Sequence[bytes]
-) -> xml.Splice:
-    """What adds elements to the last of some parents; to a new one of a tag below the root where there is none."""
-    parent = next(iter(parents[-1:]), root)
-    if parent is root:
-        lead = element_edits.child_indent_of(data, root)
-        lines = [f"<{tag}>".encode(), *(2 * lead + text for text in texts), lead + f"</{tag}>".encode()]
-        texts = [xml.newline_of(data).join(lines)]
-    return element_edits.append_elements(data, parent, [element_edits.OutputElement("", (), text=t) for t in texts])
 
 
 def _strip(tree: MjcfTree) -> MjcfModel:
@@ -109,7 +74,7 @@ class MjcfEdit:
     """An edited document; before: the model of the unedited one, its masses not scaled."""
 
     def __init__(self, asset: Asset, before: MjcfModel, stem: str) -> None:
-        self.before, self.tree = before, before.tree
+        self.before, self.tree, self.excludes = before, before.tree, asset.mechanism.added
         self.maker = NewGeoms(asset, before.tree, stem)
         self.geoms = GeomEdits(asset, before, self.maker)
         self.masses = BodyMasses(self.geoms)
@@ -140,7 +105,7 @@ class MjcfEdit:
 
     def build_texts(self) -> list[bytes]:
         """Return the bytes of each of the files. Raises AssetError where one of them cannot be edited."""
-        rest = [*self.masses.build_splices(), *self._asset_splices()]
+        rest = [*self.masses.build_splices(), *self._asset_splices(), *self._contact_splices()]
         return [
             self._edit_file(k, [*self.geoms.build_splices(k), *(splice for owner, splice in rest if owner == k)])
             for k in range(len(self.tree.sources))
@@ -164,10 +129,35 @@ class MjcfEdit:
 
     def _asset_splices(self) -> Iterator[tuple[int, xml.Splice]]:
         """The edits, with their files, that add the new meshes."""
-        if not self.maker.elements:
-            return
+        if self.maker.elements:
+            yield self._append_to("asset", self.maker.elements)
+
+    def _contact_splices(self) -> Iterator[tuple[int, xml.Splice]]:
+        """The edits, with their files, that exclude pairs, and name the bodies of these that have no name."""
+        for body in dict.fromkeys(name for pair in self.excludes for name in pair):
+            node = self.geoms.body_node(body)
+            if node is not None and node.tag == "body" and "name" not in node.attributes:
+                if sum(self.geoms.body_node(other) is node for other in self.before.body_names) > 1:
+                    problem = f"body {body!r} has no name, and its element stands for several bodies"
+                    raise AssetError(problem, where=self.tree.where(node), remedy="Give it a name in the file.")
+                text = self.tree.sources[node.source].text.data
+                yield node.source, xml.set_attribute(text, node.element, "name", body)
+        if self.excludes:
+            yield self._append_to(
+                "contact",
+                [xml.tag("exclude", dict(zip(("body1", "body2"), pair, strict=True))) for pair in self.excludes],
+            )
+
+    def _append_to(self, section: str, texts: list[bytes]) -> tuple[int, xml.Splice]:
+        """The edit of the main file that adds elements to its last section of a name, or to a new one."""
         data, root = self.tree.main.text.data, self.tree.root.element
-        yield 0, _append_to(data, root, [*root.each("asset")], "asset", self.maker.elements)
+        parent, name = next(iter([*root.each(section)][-1:]), root), section.encode()
+        if parent is root:
+            lead = element_edits.child_indent_of(data, root)
+            lines = [b"<%s>" % name, *(2 * lead + text for text in texts), lead + b"</%s>" % name]
+            texts = [xml.newline_of(data).join(lines)]
+        outputs = [element_edits.OutputElement("", (), text=text) for text in texts]
+        return 0, element_edits.append_elements(data, parent, outputs)
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
@@ -190,7 +180,9 @@ class MjcfEdit:
                 return f"the name of geom {geom.name!r}"
             if geom.hull is not None and not _is_same_shape(after.read_piece(k).shape, geom.hull.shape):
                 return f"the geometry of hull {geom.name!r}"
-        return ""
+        found = set(map(frozenset, read_excludes(after)))
+        missing = [":".join(pair) for pair in self.excludes if frozenset(pair) not in found]
+        return f"the excluded pair {missing[0]}" if missing and self.before.is_whole else ""
 
 
 def _is_same_shape(found: Shape | None, wanted: Shape) -> bool:

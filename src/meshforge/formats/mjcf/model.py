@@ -188,11 +188,16 @@ def read_mechanism(compiled: MjcfModel) -> Mechanism:
             )
             joints.append(Joint("", "fixed", *ends, pose.translation, pose.rotation[:, 0]))
     inertials = [i for k in range(1, model.nbody) if (i := _read_inertial(compiled, k)) is not None]
-    bodies, signatures = compiled.body_names, map(int, model.exclude_signature)
-    excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
+    excludes = read_excludes(compiled)
     geoms = zip(model.pair_geom1, model.pair_geom2, strict=True)
     pairs = [(compiled.names[int(first)], compiled.names[int(second)]) for first, second in geoms]
     return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
+
+
+def read_excludes(compiled: MjcfModel) -> list[tuple[str, str]]:
+    """Return the pairs of bodies of each `<exclude>`."""
+    bodies, signatures = compiled.body_names, map(int, compiled.model.exclude_signature)
+    return [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
 
 
 def _read_couplings(tree: MjcfTree) -> dict[str, Coupling]:
