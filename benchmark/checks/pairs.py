@@ -145,7 +145,8 @@ def list_contacts(path: Path) -> tuple[set[Pair], set[Pair]]:
         if place is places[0]:
             size = _measure_diagonal(model, data)
         for contact in data.contact[: data.ncon]:
-            first, second = (model.body(int(model.geom_bodyid[geom])).name for geom in contact.geom)
+            numbers = (int(model.geom_bodyid[geom]) for geom in contact.geom)
+            first, second = (model.body(k).name or f"body{k}" for k in numbers)  # as those without a name are read
             pair = (min(first, second), max(first, second))
             touching |= {pair}
             deep |= {pair} if contact.dist < -_DEEP * size else set()

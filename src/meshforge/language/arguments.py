@@ -278,8 +278,6 @@ class Operation:
     __slots__ = ()
     owner: ClassVar[Plugin | None] = None
     """The plug-in that the class comes from, None for a built-in one."""
-    planned: ClassVar[tuple[str, ...]] = ()
-    """Words of options in the language which this version does not run."""
 
     @classmethod
     def word(cls) -> str:

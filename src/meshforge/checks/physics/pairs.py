@@ -38,8 +38,8 @@ class PairProposal:
     fault: str = ""
 
     def __str__(self) -> str:
-        doubt = f"; not in `all`: {self.fault}" if self.fault else ""
-        return f"{':'.join(self.bodies)} {self.where}, {self.hulls[0]} is {mm(self.depth)} in {self.hulls[1]}{doubt}"
+        reason = f"; not in `all`: {self.fault}" if self.fault else ""
+        return f"{':'.join(self.bodies)} {self.where}, {self.hulls[0]} is {mm(self.depth)} in {self.hulls[1]}{reason}"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
