@@ -1,6 +1,7 @@
 """Plug-ins: what other packages add by entry points. They are found without loading them, loaded when first asked for,
 and named in every error that they cause. Libraries that may be absent, too: extras, and MuJoCo."""
 
+from collections import UserDict
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -205,25 +206,12 @@ class Registry(Mapping[str, T], Generic[T]):
         return [plugin for plugin in find_plugins(self.kind) if plugin.name == name]
 
 
-class Targets(Mapping[str, T], Generic[T]):
+class Targets(UserDict[str, Any]):
     """What is built in, by name: each is made by what `module:attribute` names when first asked for, once for all its
     names."""
 
-    def __init__(self, targets: Mapping[str, str]) -> None:
-        self._targets = targets
-
-    def __getitem__(self, name: str) -> T:
-        made: T = make_target(self._targets[name])
-        return made
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._targets
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._targets)
-
-    def __len__(self) -> int:
-        return len(self._targets)
+    def __getitem__(self, name: str) -> Any:
+        return make_target(self.data[name])
 
 
 @cache
