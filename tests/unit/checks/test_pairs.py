@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pxr import Usd, UsdPhysics
 
+from meshforge.checks.base import CheckSubject
 from meshforge.checks.physics.overlaps import DEEP
-from meshforge.checks.physics.pairs import exclude_pairs, propose_pairs
+from meshforge.checks.physics.pairs import PairsCheck, exclude_pairs, propose_pairs
 from meshforge.formats import load, save
 from meshforge.formats.xml import parse_xml
 from tests.mjcf_engines import put
@@ -113,18 +114,14 @@ def test_pairs_go_along_into_formats_that_have_them_and_are_named_by_the_rest(ca
     )
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (("--exclude", "drawr:door"), "there is no body 'drawr'"),
-        (("--exclude", "drawer"), "it needs two bodies"),
-        (("--exclude", "door:door"), "it needs two bodies"),
-    ],
-)
+TWO = "it needs two bodies"
+
+
+@pytest.mark.parametrize(("pair", "said"), [("drawr:door", "no body 'drawr'"), ("drawer", TWO), ("door:door", TWO)])
 def test_a_pair_that_cannot_be_is_one_error_and_nothing_is_written(
-    cabinet: Path, run: Run, words: tuple[str, ...], said: str
+    cabinet: Path, run: Run, pair: str, said: str
 ) -> None:
-    refused = run("convert", "cabinet.xml", "out.xml", *words)
+    refused = run("convert", "cabinet.xml", "out.xml", "--exclude", pair)
     assert refused.code == 2 and said in refused.err and not Path("out.xml").exists()
 
 
@@ -139,8 +136,15 @@ def test_a_drawer_that_its_carcass_fills_is_proposed_with_a_doubt_that_all_leave
     put(tmp_path, {"c.xml": CABINET.replace('pos="0 0 .003"', 'pos="0 0 -.01"')})
     told = run("check", "c.xml", "--pairs")
     assert "not in `all`: `--physics` finds an error in it" in told.out
-    mesh, excluded = exclude_pairs(load(tmp_path / "c.xml"), ["all"])
-    assert excluded == () and mesh.asset and mesh.asset.mechanism.added == ()
+    assert exclude_pairs(load(tmp_path / "c.xml"), ["all"])[1] == ()
+
+
+def test_what_cannot_be_simulated_is_one_message(cabinet: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
+    monkeypatch.setattr("meshforge.checks.physics.pairs.BODIES", 2)
+    (note,) = PairsCheck().measure(CheckSubject(load(cabinet))).notes
+    assert note == "no pairs are proposed: it has more than 1,000 hulls or 2 bodies"
+    refused = run("convert", "cabinet.xml", "out.xml", "--exclude", "all")
+    assert refused.code == 2 and "--exclude BODY:BODY" in refused.err and not Path("out.xml").exists()
 
 
 @given(st.lists(st.tuples(st.floats(-0.15, 0.15), st.floats(0.02, 0.2)), min_size=2, max_size=3), st.data())

@@ -11,7 +11,8 @@ from meshforge.checks.base import CheckFindings, CheckSubject, Measure, MeasureC
 from meshforge.checks.physics.mechanism import JointTree
 from meshforge.checks.physics.overlaps import DEEP, NEARLY, find_body_overlaps, list_sweeps, measure_near
 from meshforge.checks.physics.scene import mm
-from meshforge.common import UsageError, join_names, pluralize, require_mujoco, suggest_among
+from meshforge.checks.physics.simulation import BODIES, HULLS
+from meshforge.common import AssetError, UsageError, join_names, pluralize, require_mujoco, suggest_among
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
@@ -79,22 +80,32 @@ class PairsCheck(MeasureCheck):
     def measure(self, subject: CheckSubject) -> CheckFindings:
         try:
             return CheckFindings((), {self.name: PairProposals(propose_pairs(subject.sound))})
-        except ValueError as error:  # MuJoCo's compiler
-            reason = str(error).splitlines()[0].removeprefix("Error: ")
-            return CheckFindings(notes=(f"no pairs are proposed: MuJoCo refuses it: {reason}",))
+        except AssetError as error:
+            return CheckFindings(notes=(error.problem,))
 
 
 def propose_pairs(mesh: SymbolicMesh) -> tuple[PairProposal, ...]:
     """Return the pairs of bodies that reach into each other by more than 0.5% of the diagonal, at rest or as one joint
     goes through its limits while the others are at rest, and that the file lets touch; the deepest first.
 
-    What is around the axis of a hinge counts, too. Raises ValueError where MuJoCo refuses the mesh, MeshForgeError
-    where it is not installed.
+    What is around the axis of a hinge counts, too. Raises AssetError where MuJoCo refuses the mesh, or it has more
+    hulls or bodies than are simulated; MeshForgeError where MuJoCo is not installed.
     """
     require_mujoco("the check of pairs")
+    where, tree = str(mesh.asset.path) if mesh.asset else "", JointTree.of(mesh)
     if len({hull.body for hull in mesh.hulls}) < 2:
         return ()
-    tree, least = JointTree.of(mesh), DEEP * mesh.diagonal
+    if len(mesh.hulls) > HULLS or len(tree.bodies) > BODIES:
+        problem = f"no pairs are proposed: it has more than {HULLS:,} hulls or {BODIES:,} bodies"
+        raise AssetError(problem, where=where, remedy="Name the pairs yourself: --exclude BODY:BODY.")
+    try:
+        return _find_pairs(mesh, tree, DEEP * mesh.diagonal)
+    except ValueError as error:  # MuJoCo's compiler
+        reason = str(error).splitlines()[0].removeprefix("Error: ")
+        raise AssetError(f"no pairs are proposed: MuJoCo refuses it: {reason}", where=where) from None
+
+
+def _find_pairs(mesh: SymbolicMesh, tree: JointTree, least: float) -> tuple[PairProposal, ...]:
     wrong = {frozenset(one.bodies) for one in find_body_overlaps(mesh, tree) if one.is_wrong(mesh.diagonal)}
     found: dict[frozenset[str], PairProposal] = {}
     for overlap in find_body_overlaps(mesh, tree, near_axes=True):
@@ -134,7 +145,7 @@ def exclude_pairs(mesh: SymbolicMesh, wanted: Sequence[str]) -> tuple[SymbolicMe
     """Return a mesh whose bodies of some pairs never touch, and these pairs; those that never did are left out.
 
     wanted: `BODY:BODY`, or `all` for all that `propose_pairs` has and that hide no fault. Raises UsageError for a body
-    that is not there, MeshForgeError as `propose_pairs`.
+    that is not there, others as `propose_pairs`.
     """
     asset = mesh.asset
     if asset is None or not wanted:
