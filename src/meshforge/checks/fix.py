@@ -65,9 +65,8 @@ class FixResult:
             }
             for change in self.changes
         ]
-        return {"changes": rows, "left": list(self.left), "parted": list(self.parted)} | {
-            "excluded": list(self.excluded)
-        }
+        lists = {name: list(getattr(self, name)) for name in ("left", "parted", "excluded")}
+        return {"changes": rows, **lists}
 
 
 def fix(
