@@ -22,6 +22,7 @@ from meshforge.signoff.question import (
     identify,
     price_group,
 )
+from meshforge.symbolic import NO_PART
 from meshforge.synthesis import OrientationSuggestion
 
 MOST_HULLS = 24
@@ -134,13 +135,15 @@ def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> ReviewQuestion:
     names = Counter(label.name if label else "nothing" for label in labels_of_group)
     counts = dict(sorted(names.items(), key=lambda one: (-one[1], one[0])))
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
+    known = f": {called}" if len(counts) > 1 else ""
+    whether = "Is none of them any part" if group.label == NO_PART else f"Are all of them {group.label}"
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
     choices = tuple(map(ReviewChoice.of_label, labels))
     first = group.hulls[0]
     if len(group.hulls) == 1:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
     else:
-        text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
+        text = f"These {len(group.hulls)} hulls look alike{known}. {whether}?"
     question = identify(
         ReviewQuestion("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
     )
