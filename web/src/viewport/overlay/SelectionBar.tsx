@@ -3,12 +3,13 @@
 import { Columns3, X } from "lucide-react";
 import { useEffect } from "react";
 import { selectedByAsset, unselectAsset } from "../../store/familySelection";
-import { useProject } from "../../store/project";
+import { useOwnNames, useProject } from "../../store/project";
 import { toggleSheet } from "../../store/sheet";
 import { prepareSimilar, useSimilar } from "../../store/similar";
 import { countText } from "../../store/words";
 import { openAsset, select, setBrush, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
+import { Name } from "../../ui/Name";
 import { Swatch } from "../../ui/Section";
 import css from "./selectionBar.module.css";
 
@@ -101,10 +102,11 @@ function Several() {
 }
 
 function Group({ asset, count }: { asset: string; count: number }) {
+  const ownName = useOwnNames();
   return (
     <li>
       <button type="button" className={css.asset} title={`Open ${asset}`} onClick={() => openAsset(asset)}>
-        {asset}
+        <Name text={asset} own={ownName(asset)} />
       </button>
       <span className={css.faint}>{count}</span>
       <IconButton icon={X} name={`Take ${countText(count, "hull")} of ${asset} off the selection`} onClick={() => unselectAsset(asset)} />
