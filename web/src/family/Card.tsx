@@ -21,6 +21,7 @@ import { Thumbnail } from "../pictures/Thumbnail";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useSelectedPositions } from "../store/familySelection";
 import { doubtsText, probabilityText } from "../store/assessment";
+import { isBare } from "../store/family";
 import { useProject } from "../store/project";
 import { extendSheet, toggleOnSheet } from "../store/sheet";
 import { countText } from "../store/words";
@@ -51,9 +52,12 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
   const inView = useWorkspace(({ sheet }) => sheet.includes(asset));
   const selected = useSelectedPositions(asset);
   const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
+  const doubts = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
+  const bare = useProject((state) => isBare(state.cards));
   const sure = useProject((state) => probabilityText(state, asset));
   if (!card) return null;
+  const badges = badgesOf(card, engine, bare);
+  const title = [doubts, ...badges.map(({ text }) => text)].join("\n");
   const description = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
   return (
     <div
@@ -78,7 +82,7 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
         <span className={css.line}>
           <Amount card={card} />
           <Sure asset={asset} />
-          <Badges card={card} room={width - 104} />
+          <Badges all={badges} room={width - 104} />
         </span>
       </div>
     </div>
@@ -198,25 +202,18 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
 };
 
 /** room: for signs and their counts [px]. */
-function Badges({ card, room }: { card: CardData; room: number }) {
-  const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const { shown, rest } = fitBadges(badgesOf(card, engine), room);
+function Badges({ all, room }: { all: readonly Badge[]; room: number }) {
   return (
     <span className={css.badges}>
-      {shown.map(({ name, text, count, old }) => {
+      {fitBadges(all, room).map(({ name, count, old }) => {
         const Icon = ICONS[name];
         return (
-          <span key={name} className={css.badge} data-badge={name} data-old={old} title={text}>
+          <span key={name} className={css.badge} data-badge={name} data-old={old}>
             <Icon size={12} aria-hidden />
             {count}
           </span>
         );
       })}
-      {rest.length > 0 && (
-        <span className={css.badge} title={rest.map((badge) => badge.text).join("\n")}>
-          +{rest.length}
-        </span>
-      )}
     </span>
   );
 }

@@ -37,6 +37,9 @@ function Walk() {
   const title = counts.flatMap(([count, what]) => (count ? `${count.toLocaleString("en-GB")} ${what}` : [])).join(", ");
   return (
     <Section title={title} aside={next}>
+      <span className={css.meter} aria-hidden>
+        {counts.map(([count, what]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}
+      </span>
       {inHand && <HullInHand {...inHand} />}
     </Section>
   );

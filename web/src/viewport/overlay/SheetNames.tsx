@@ -37,9 +37,10 @@ function Names({ parts }: { parts: Parts }) {
   });
   return (
     <div ref={holder} className={css.names} aria-hidden>
-      {parts.map(({ asset }) => (
+      {parts.map(({ asset, scale }) => (
         <span key={asset} data-open={asset === open}>
           {cutMiddle(ownName(asset), MOST)}
+          {scale !== 1 && ` · drawn ×${Number(scale.toPrecision(2))}`}
         </span>
       ))}
     </div>
