@@ -1,7 +1,7 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
-import { cutMiddle } from "../store/commonParts";
+import { wrapName } from "../store/commonParts";
 import { useShown } from "../store/family";
 import { useOwnNames } from "../store/project";
 import { extendSheet } from "../store/sheet";
@@ -77,7 +77,7 @@ export function Cards({ large = false }: { large?: boolean }) {
             role="presentation"
           >
             {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
-              <Card key={one} asset={one} name={cutMiddle(ownName(one), lines * letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
+              <Card key={one} asset={one} name={wrapName(ownName(one), letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
             ))}
           </div>
         ))}

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cutMiddle, findOwnParts } from "./commonParts";
+import { cutMiddle, findOwnParts, wrapName } from "./commonParts";
 
 const own = (...names: string[]) => names.map(findOwnParts(names));
 
@@ -37,6 +37,7 @@ describe("what a name has alone", () => {
 it("a name that does not fit is cut in its middle", () => {
   expect(cutMiddle("nightstand_moppdp", 9)).toBe("nigh…ppdp");
   expect(cutMiddle("stool", 5)).toBe("stool");
+  expect(["hannes_0529", "nightstand_17", "benchmark_of_a_nightstand", "stool"].map((name) => wrapName(name, 9))).toEqual(["hannes_\u200b0529", "nightstand_17", "benchmark…ightstand", "stool"]);
 });
 
 it("does not take long for ten thousand names", () => {
