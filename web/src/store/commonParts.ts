@@ -1,5 +1,5 @@
 // Names that stand beside each other: what they have in common is left out, so that what tells them apart is read.
-import { placeOf } from "./hullPlaces";
+import { byAsset, placeOf } from "./hullPlaces";
 import { oncePer } from "./once";
 import type { Scene } from "./scene";
 
@@ -26,10 +26,11 @@ export const ownPartsOf = oncePer(findOwnParts);
 export const hullNamesOf = oncePer(({ parts, hulls }: Pick<Scene, "parts" | "hulls">): ((name: string) => string) => {
   if (!parts) return findOwnParts(hulls.map(({ name }) => name));
   const ofAssets = findOwnParts(parts.map(({ asset }) => asset));
-  const ofHulls = findOwnParts([...new Set(hulls.flatMap(({ name }) => placeOf(name)?.hull ?? []))]);
+  const rows = byAsset(hulls.flatMap(({ name }) => placeOf(name) ?? []));
+  const ofHulls = new Map([...rows].map(([asset, names]) => [asset, findOwnParts(names)]));
   return (name) => {
     const place = placeOf(name);
-    return place ? `${ofHulls(place.hull)} · ${ofAssets(place.asset)}` : name;
+    return place ? `${ofHulls.get(place.asset)?.(place.hull) ?? place.hull} · ${ofAssets(place.asset)}` : name;
   };
 });
 

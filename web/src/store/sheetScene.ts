@@ -10,9 +10,11 @@ interface Box {
   readonly high: Triple;
 }
 
-/** Room between assets, in widths; rows are farther apart, so that the one in front hides little of the next. */
+/** Room between assets, in widths; rows are so far apart that the one in front hides nothing of the next, nor its name. */
 const GAP = 0.25;
-const ROW_GAP = 1.5; // heights
+const ROW_GAP = 2.6; // heights; 1 / tan(elevation) where one looks from at first, and room for a name
+/** How much of the ground is seen from there, across the picture. */
+const STEEP = 0.41;
 /** Wished width of all, in heights of all as they are seen. */
 const WIDE = 1.5;
 /** Where one looks from as a sheet is opened, about the upright axis: rows go across it [rad]. */
@@ -46,7 +48,7 @@ function placesFor(boxes: readonly Box[]): Triple[] {
   const seen = (along: number, across: number) => Math.abs(along) * size(0) + Math.abs(across) * size(1);
   // to the right, and away from the eye
   const [wide, deep] = [seen(sine, cosine) * (1 + GAP), seen(cosine, sine) + size(2) * ROW_GAP];
-  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * WIDE * size(2) * 1.3) / wide))));
+  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * WIDE * deep * STEEP) / wide))));
   return boxes.map((_, k) => {
     const [right, near] = [(k % columns) * wide, Math.floor(k / columns) * deep];
     return [-sine * right + cosine * near, cosine * right + sine * near, 0];
