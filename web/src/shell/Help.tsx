@@ -69,12 +69,12 @@ function Content() {
         {!word && <How />}
         {none && <p className={css.none}>No command matches.</p>}
         <div className={css.groups}>
-          {!word && <Signs />}
           {groups
             .filter(({ commands }) => commands.length > 0)
             .map(({ group, commands }) => (
               <Group key={group} name={group} commands={commands} />
             ))}
+          {!word && <Signs />}
         </div>
       </div>
     </>
