@@ -27,7 +27,8 @@ UNLABELLED = "#B4B9C0"
 REMOVED, MADE, CHANGED, KEPT = "#D5401A", "#0FA47A", "#8A3FD1", "#C9CED6"
 DIFFERENCE_COLORS = {"removed": REMOVED, "made": MADE, "kept": KEPT}
 """Of the hulls in a picture of differences."""
-SELECTED, PALE = "#E8760A", "#D9DDE3"
+SELECTED, PALE = "#E000F0", "#D9DDE3"
+"""Of hulls that are pointed out, which is far from all colours of labels, and of the others."""
 ColorBy = Literal["hull", "label", "body"]
 COLOR_BY: tuple[ColorBy, ...] = get_args(ColorBy)
 UNSURE = 0.5

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.random import default_rng
 
+from meshforge.geometry import Floats
 from meshforge.rendering.colors import (
     HULL_COLORS,
     LABEL_COLORS,
+    PALE,
+    SELECTED,
     UNLABELLED,
     LabelLook,
     color_hulls,
@@ -18,9 +25,24 @@ from meshforge.rendering.colors import (
     look_of,
     pick_distinct_colors,
     rgb,
+    to_linear,
 )
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from tests.unit.rendering.scenes import box, hull, table
+
+
+def to_lab(colors: Sequence[str]) -> Floats:
+    """CIELAB under D65 of colours `#rrggbb`."""
+    to_xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    x, y, z = np.cbrt(to_linear(np.array([rgb(c) for c in colors])) @ to_xyz.T / [0.9505, 1, 1.0888]).T
+    return np.stack([116 * y, 500 * (x - y), 200 * (y - z)], axis=1)
+
+
+def test_what_is_pointed_out_has_no_label_s_colour() -> None:
+    css = (Path(__file__).parents[3] / "web/src/styles/tokens.css").read_text(encoding="utf-8")
+    shown = to_lab([SELECTED, *re.findall(r"--highlight: (#\w{6});", css)])
+    assert len(shown) == 3
+    assert np.linalg.norm(shown[:, None] - to_lab([*LABEL_COLORS, UNLABELLED, PALE]), axis=2).min() > 40
 
 
 def row(count: int) -> SymbolicMesh:

@@ -42,10 +42,10 @@ describe("a reply", () => {
   });
 
   it("names the hulls of a group that are something else, and all that are labelled where some are left out", () => {
-    expect(groupReply(group(), { a: "panel" })).toEqual({ choice: "leg", exceptions: [{ asset: "a", hull: "x", label: "panel" }] });
+    expect(groupReply(group(), { "a#x": "panel" })).toEqual({ choice: "leg", exceptions: [{ asset: "a", hull: "x", label: "panel" }] });
     const rows = [{ asset: "a", hull: "x", label: "panel" }, { asset: "b", hull: "y", label: "leg" }];
-    expect(groupReply(group(), { a: "panel", c: null })).toEqual({ choice: null, exceptions: rows });
-    expect(groupReply(group(), { a: null, b: null, c: null })).toEqual({ choice: null, exceptions: [] });
+    expect(groupReply(group(), { "a#x": "panel", "c#z": null })).toEqual({ choice: null, exceptions: rows });
+    expect(groupReply(group(), { "a#x": null, "b#y": null, "c#z": null })).toEqual({ choice: null, exceptions: [] });
   });
 
   it("says of a wrong result which hulls a rule should have taken: those selected in the view", async () => {

@@ -1,6 +1,6 @@
 // Replies to the question of the family's assessment, each one edit that undo takes back, and the way to its card.
 import { create } from "zustand";
-import { type Exceptions, isAsked } from "../store/assessment";
+import { exceptionOf, type Exceptions, isAsked } from "../store/assessment";
 import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
@@ -27,11 +27,11 @@ export async function reply(question: ReviewQuestionView, said: Said): Promise<b
 /** Asks another question; this one does not come back as long as what it is about stays. */
 export const putOff = (question: ReviewQuestionView): Promise<boolean> => reply(question, { later: true });
 
-/** What is said of a group by its first label: the hulls of some assets are something else, or, with null, left out. */
+/** What is said of a group by its first label: some hulls are something else, or, with null, left out. */
 export function groupReply({ hulls, choices: [first] }: ReviewQuestionView, exceptions: Exceptions): Said {
   const leavesOut = Object.values(exceptions).includes(null);
   const others = hulls.flatMap(({ asset, hull }) => {
-    const label = asset in exceptions ? exceptions[asset] : leavesOut ? first?.label : null;
+    const label = exceptionOf({ asset, hull }, exceptions, leavesOut ? first?.label : null);
     return label ? [{ asset, hull, label }] : [];
   });
   return { choice: leavesOut ? null : (first?.id ?? null), exceptions: others };

@@ -18,22 +18,25 @@ import {
 } from "lucide-react";
 import { memo, type MouseEvent, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
-import { commonPartsOf } from "../store/commonParts";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useSelectedPositions } from "../store/familySelection";
 import { doubtsText, probabilityText } from "../store/assessment";
+import { isBare } from "../store/family";
 import { useProject } from "../store/project";
 import { extendSheet, toggleOnSheet } from "../store/sheet";
 import { countText } from "../store/words";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
-import { Name } from "../ui/Name";
 import type { Card as CardData } from "../wire";
 import css from "./card.module.css";
 import { type Badge, badgesOf, cardText, fitBadges, hullsText } from "./cardText";
 
 interface CardProps {
   asset: string;
+  /** What is shown of its name. */
+  name: string;
+  /** How high the words below the picture are [px]. */
+  words: number;
   width: number;
   place: number;
   of: number;
@@ -43,16 +46,18 @@ interface CardProps {
 /** The id of a card's element, by which the list says which one is current. */
 export const cardId = (asset: string): string => `card ${asset}`.replace(/\s/g, "_");
 
-export const Card = memo(function Card({ asset, width, place, of, large }: CardProps) {
+export const Card = memo(function Card({ asset, name, words, width, place, of, large }: CardProps) {
   const card = useProject((state) => state.cards[asset]);
   const current = useWorkspace((workspace) => workspace.asset === asset);
   const inView = useWorkspace(({ sheet }) => sheet.includes(asset));
   const selected = useSelectedPositions(asset);
   const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
+  const doubts = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
+  const bare = useProject((state) => isBare(state.cards));
   const sure = useProject((state) => probabilityText(state, asset));
-  const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
+  const badges = badgesOf(card, engine, bare);
+  const title = [doubts, ...badges.map(({ text }) => text)].join("\n");
   const description = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
   return (
     <div
@@ -72,14 +77,12 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
     >
       <span className="visually-hidden">{description}</span>
       {card.error === null ? <Face card={card} large={large} selected={selected} /> : <Broken error={card.error} />}
-      <div className={css.foot} aria-hidden>
-        <span className={css.name}>
-          <Name text={asset} parts={parts} hidden />
-        </span>
+      <div className={css.foot} style={{ height: words }} aria-hidden>
+        <span className={css.name}>{name}</span>
         <span className={css.line}>
           <Amount card={card} />
           <Sure asset={asset} />
-          <Badges card={card} room={width - 104} />
+          <Badges all={badges} room={width - 104} />
         </span>
       </div>
     </div>
@@ -199,25 +202,18 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
 };
 
 /** room: for signs and their counts [px]. */
-function Badges({ card, room }: { card: CardData; room: number }) {
-  const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const { shown, rest } = fitBadges(badgesOf(card, engine), room);
+function Badges({ all, room }: { all: readonly Badge[]; room: number }) {
   return (
     <span className={css.badges}>
-      {shown.map(({ name, text, count, old }) => {
+      {fitBadges(all, room).map(({ name, count, old }) => {
         const Icon = ICONS[name];
         return (
-          <span key={name} className={css.badge} data-badge={name} data-old={old} title={text}>
+          <span key={name} className={css.badge} data-badge={name} data-old={old}>
             <Icon size={12} aria-hidden />
             {count}
           </span>
         );
       })}
-      {rest.length > 0 && (
-        <span className={css.badge} title={rest.map((badge) => badge.text).join("\n")}>
-          +{rest.length}
-        </span>
-      )}
     </span>
   );
 }

@@ -1,7 +1,9 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
+import { wrapName } from "../store/commonParts";
 import { useShown } from "../store/family";
+import { useOwnNames } from "../store/project";
 import { extendSheet } from "../store/sheet";
 import { openAsset, setFilters, setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
@@ -9,7 +11,8 @@ import { Card, cardId } from "./Card";
 import css from "./family.module.css";
 
 const GAP = 8;
-const WORDS = 44; // pixels below the picture
+/** Pixels below the picture, where names take one line or two, and of a letter of a name. */
+const [WORDS, LINE, LETTER] = [44, 16, 6.5];
 
 /** The least width of a card [px], in the column and in place of the view. */
 const WIDTHS = {
@@ -31,15 +34,19 @@ export function Cards({ large = false }: { large?: boolean }) {
   const wished = large ? Math.max(least, width / (size === "small" ? 14 : 10)) : least;
   const columns = Math.max(1, Math.floor((width - GAP) / (wished + GAP)));
   const card = Math.floor((width - GAP) / columns - GAP);
+  const letters = Math.floor((card - 18) / LETTER);
+  const ownName = useOwnNames();
+  const lines = useMemo(() => (shown.some((one) => ownName(one).length > letters) ? 2 : 1), [shown, ownName, letters]);
+  const words = WORDS + (lines - 1) * LINE;
   const rows = useVirtualizer({
     count: Math.ceil(shown.length / columns),
     getScrollElement: () => box.current,
-    estimateSize: () => Math.round(card * 0.75) + WORDS + GAP,
+    estimateSize: () => Math.round(card * 0.75) + words + GAP,
     overscan: 2,
     paddingStart: 2,
     paddingEnd: GAP,
   });
-  useEffect(() => rows.measure(), [rows, card]);
+  useEffect(() => rows.measure(), [rows, card, words]);
   useScrollToOpen(asset, size, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
   if (shown.length === 0) {
     return (
@@ -70,7 +77,7 @@ export function Cards({ large = false }: { large?: boolean }) {
             role="presentation"
           >
             {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
-              <Card key={one} asset={one} width={card} place={index * columns + k} of={shown.length} large={large} />
+              <Card key={one} asset={one} name={wrapName(ownName(one), letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
             ))}
           </div>
         ))}

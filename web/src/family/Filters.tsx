@@ -6,6 +6,7 @@ import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
 import { ICONS } from "./Card";
+import { MEANINGS } from "./cardText";
 import css from "./family.module.css";
 
 const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
@@ -86,7 +87,7 @@ function Chips() {
             className={css.chip}
             aria-pressed={on}
             data-badge={name}
-            title={on ? `Do not show only ${name}` : `Show only ${name}`}
+            title={`${on ? `Do not show only ${name}` : `Show only ${name}`}: ${MEANINGS[name]}`}
             onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
           >
             <Icon size={12} aria-hidden />

@@ -1,35 +1,30 @@
 // Which assets belong to the family: a menu that takes the open one out, and the list of those that are left out.
 import { Ellipsis, Undo } from "lucide-react";
 import { useShallow } from "zustand/react/shallow";
-import { commonPartsOf, splitName } from "../store/commonParts";
 import { leaveOut, putBack, whyNotLeave } from "../store/members";
-import { useProject } from "../store/project";
+import { useOwnNames, useProject } from "../store/project";
 import { assetsInView } from "../store/sheet";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
+import { Name } from "../ui/Name";
 import css from "./members.module.css";
 
 /** What can be done with the asset that is open, or with those side by side. */
 export function AssetMenu() {
   const assets = useWorkspace(useShallow(assetsInView));
-  const order = useProject((state) => state.order);
+  const none = useProject((state) => state.order.length === 0);
+  const ownName = useOwnNames();
   const [first] = assets;
-  const name = first === undefined ? "the open asset" : assets.length > 1 ? `these ${assets.length} assets` : ownName(first, order);
-  const disabled = order.length === 0 || whyNotLeave(assets) !== null;
+  const name = first === undefined ? "the open asset" : assets.length > 1 ? `these ${assets.length} assets` : ownName(first);
+  const disabled = none || whyNotLeave(assets) !== null;
   return (
     <Menu
       trigger={<IconButton icon={Ellipsis} name={`Leave out ${assets.length > 1 ? "the assets side by side" : "the open asset"}`} />}
       lines={[{ label: `Leave ${name} out of the family`, disabled, onSelect: () => void leaveOut(assets) }]}
     />
   );
-}
-
-/** What tells an asset from the others of its family. */
-function ownName(asset: string, order: readonly string[]): string {
-  const [, own, end] = splitName(asset, commonPartsOf(order)(asset));
-  return own + end;
 }
 
 /** Assets that are kept, but not part of the family. */
@@ -42,7 +37,9 @@ export function LeftOut() {
       <ul>
         {ids.map((asset) => (
           <li key={asset} className={css.row}>
-            <span title={asset}>{asset}</span>
+            <span title={asset}>
+              <Name text={asset} />
+            </span>
             <Button look="quiet" icon={Undo} aria-label={`Put back ${asset}`} onClick={() => void putBack([asset])}>
               Put back
             </Button>

@@ -4,7 +4,7 @@ import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
 import { barText, countSigned, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
 import { openGoals } from "../store/goals";
-import { useProject } from "../store/project";
+import { useOwnNames, useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
 import { Button } from "../ui/Button";
@@ -71,6 +71,7 @@ function Meter({ assessment: { signed_off, excluded, need_review, unseen }, sign
 
 /** Why assets are held, reason by reason, each with a way to the first of its assets. */
 function HeldReasons({ assessment }: { assessment: AssessmentView }) {
+  const ownName = useOwnNames();
   const groups = useMemo(() => groupHeld(assessment), [assessment]);
   if (!groups.length) return null;
   return (
@@ -80,7 +81,7 @@ function HeldReasons({ assessment }: { assessment: AssessmentView }) {
         {groups.map(({ reason, assets, share }) => (
           <li key={reason}>
             <button type="button" className={css.look} title={assets.join("\n")} onClick={() => openAsset(assets[0] ?? null)}>
-              {listText(assets.map(shortName), 3)}
+              {listText(assets.map(ownName), 3)}
             </button>{" "}
             ({share}){reason && `: ${reason}`}
           </li>

@@ -49,11 +49,11 @@ test("a screen reader hears name, hulls before and after, and how it stands", ()
   expect(cardText({ ...card, hulls: null, error: "no mesh file" })).toContain("no mesh file");
 });
 
-test("signs that do not fit are counted; what matters most stays", () => {
+test("of signs that do not fit, those stay that matter most, and at least one", () => {
   const all = badgesOf(card);
-  expect(fitBadges(all, 500)).toEqual({ shown: all, rest: [] });
-  const { shown, rest } = fitBadges(all, 60);
-  expect(shown.map((badge) => badge.name)).toEqual(["stale", "demonstrated"]);
-  expect(rest).toHaveLength(all.length - 2);
-  expect(fitBadges(all, 0)).toEqual({ shown: [], rest: all });
+  expect([500, 40, 0].map((room) => fitBadges(all, room).map(({ name }) => name))).toEqual([all.map(({ name }) => name), ["stale", "demonstrated"], ["stale"]]);
+});
+
+test("that no hull has a label is no sign while none of the family has one", () => {
+  expect(badgesOf(card, "", true).map(({ name }) => name)).not.toContain("unlabelled");
 });

@@ -1,4 +1,4 @@
-// Words on cards: names that fit, and what a screen reader says.
+// Signs and words on cards, and what a screen reader says.
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
 import { flagsOf } from "../store/goals";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
@@ -16,10 +16,26 @@ export interface Badge {
   old?: boolean;
 }
 
-/** How an asset stands, what matters most first; engine: whose limits count. */
-export function badgesOf(card: Card, engine = ""): readonly Badge[] {
+/** What each sign means, also in the legend. */
+export const MEANINGS: Readonly<Record<Badge["name"], string>> = {
+  failed: "The program fails on it, or it cannot be read",
+  wrong: "You called its result wrong",
+  flagged: "Its result is flagged, for example as a goal fails",
+  "needs review": "Its result needs review",
+  accepted: "You accepted its result",
+  stale: "Its result is not up to date",
+  findings: "Findings of the checks, with their number",
+  demonstrated: "You showed steps on it",
+  corrected: "Edits by hand, with their number",
+  edited: "Edited by the program",
+  unsure: "Labels that are not sure, with their number",
+  unlabelled: "Hulls without a label, with their number; not shown while no hull of the family has one",
+};
+
+/** How an asset stands, what matters most first; engine: whose limits count; isBare: whether no hull of the family has a label. */
+export function badgesOf(card: Card, engine = "", isBare = false): readonly Badge[] {
   const { output, review, manual_edits: corrections, stale } = card;
-  const [bare, unsure] = [unlabelled(card), countUnsure(card)];
+  const [bare, unsure] = [isBare ? 0 : unlabelled(card), countUnsure(card)];
   const [faults, flags] = [faultsOf(card, engine), flagsOf(card)];
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
@@ -46,13 +62,10 @@ const countBadge = (name: Badge["name"], count: number, one: string, several: st
 const SIGN = 16; // pixels that a sign takes
 const DIGIT = 7;
 
-/** Those that fit into a width [px], and the rest, which then takes the place of a sign. */
-export function fitBadges(all: readonly Badge[], room: number): { shown: readonly Badge[]; rest: readonly Badge[] } {
-  const widths = all.map(({ count }) => SIGN + (count === undefined ? 0 : DIGIT * String(count).length));
-  const sum = (count: number) => widths.slice(0, count).reduce((a, b) => a + b, 0);
-  if (sum(all.length) <= room) return { shown: all, rest: [] };
-  const most = widths.findLastIndex((_, k) => sum(k) + SIGN <= room);
-  return { shown: all.slice(0, Math.max(most, 0)), rest: all.slice(Math.max(most, 0)) };
+/** The first, and those after it that fit into a width [px]; all stand in the tooltip. */
+export function fitBadges(all: readonly Badge[], room: number): readonly Badge[] {
+  let left = room;
+  return all.filter(({ count }, k) => (left -= SIGN + (count === undefined ? 0 : DIGIT * String(count).length)) >= 0 || k === 0);
 }
 
 /** A card as a screen reader says it. */

@@ -3,8 +3,7 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { ArrowDown, ArrowUp, Search } from "lucide-react";
 import { type KeyboardEvent, type MouseEvent, useEffect, useMemo, useRef, useState } from "react";
 import { tonesOf } from "../pictures/hullColors";
-import { type CommonParts, findCommonParts, splitName } from "../store/commonParts";
-import { placeOf } from "../store/hullPlaces";
+import { hullNamesOf } from "../store/commonParts";
 import { useProject } from "../store/project";
 import { type Scene, useScenes } from "../store/scenes";
 import { countText } from "../store/words";
@@ -52,8 +51,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const tone = useMemo(() => tonesOf(scene, colorBy, vocabulary), [scene, colorBy, vocabulary]);
   const rows = useMemo(() => rowsOf(scene.hulls, scene.contacts, search, order), [scene, search, order]);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
-  const partsOf = useMemo(() => findCommonParts(scene.hulls.map((hull) => hull.name)), [scene.hulls]);
-  const shortOf = useMemo(() => shortNamesOf(scene), [scene]);
+  const shortOf = hullNamesOf(scene);
   const opaque = scene.view.non_convex.filter((piece) => matchesSearch(search, piece.name, piece.reason, piece.body));
   const grid = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
@@ -96,7 +94,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             if (row) {
               const { name } = row.hull;
               const place = { index, top: start - HEAD, active: index === at };
-              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} short={shortOf(name)} {...place} />;
+              return <HullRow key={name} row={row} tone={tone(row.hull)} short={shortOf(name)} {...place} />;
             }
             const piece = opaque[index - rows.length];
             return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;
@@ -106,18 +104,6 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
       </div>
     </div>
   );
-}
-
-/** What tells hulls of several assets side by side apart, in short: the hull, then its asset; undefined for one asset. */
-function shortNamesOf({ parts, hulls }: Scene): (name: string) => string | undefined {
-  if (!parts) return () => undefined;
-  const assetParts = findCommonParts(parts.map(({ asset }) => asset));
-  const hullParts = findCommonParts(hulls.flatMap(({ name }) => placeOf(name)?.hull ?? []));
-  const own = (text: string, common: CommonParts) => splitName(text, common).slice(1, 3).join("");
-  return (name) => {
-    const place = placeOf(name);
-    return place && `${own(place.hull, hullParts(place.hull))} · ${own(place.asset, assetParts(place.asset))}`;
-  };
 }
 
 /** Calls back with the place of a hull that was newly selected elsewhere. */

@@ -1,7 +1,6 @@
 // One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
 import { memo } from "react";
 import type { Tone } from "../pictures/hullColors";
-import { type CommonParts, NONE } from "../store/commonParts";
 import { volumeText } from "../store/units";
 import { sureText } from "../store/assessment";
 import { sourceText } from "../store/words";
@@ -20,15 +19,13 @@ interface Place {
 interface HullRowProps extends Place {
   readonly row: Row;
   readonly tone: Tone;
-  /** What its name has in common with the others. */
-  readonly parts: CommonParts;
-  /** Its name in short, where several assets are side by side. */
-  readonly short: string | undefined;
+  /** What tells its name from the others. */
+  readonly short: string;
   /** Whether the keys are at it. */
   readonly active: boolean;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, parts, short, active, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, short, active, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
@@ -51,14 +48,7 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
     >
       <span role="gridcell" className={css.name} title={hidden ? `${hull.name} (hidden)` : hull.name}>
         <Swatch color={tone.color ?? "var(--hull-unlabelled)"} fill={tone.fill} />
-        {short === undefined ? (
-          <Name text={hull.name} parts={parts} />
-        ) : (
-          <>
-            <span aria-hidden>{short}</span>
-            <span className="visually-hidden">{hull.name}</span>
-          </>
-        )}
+        <Name text={hull.name} own={short} />
       </span>
       <span role="gridcell" title={labelTitle(row)}>
         {hull.label ?? <i aria-label="no label">–</i>}
@@ -100,7 +90,7 @@ export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & 
     >
       <span role="gridcell" className={css.name} title={piece.name}>
         <Swatch color="var(--hull-pale)" fill="hatched" />
-        <Name text={piece.name} parts={NONE} />
+        <Name text={piece.name} />
       </span>
       <span role="gridcell" className={css.reason} title={piece.reason}>
         {piece.reason}

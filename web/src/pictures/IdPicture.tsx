@@ -3,8 +3,7 @@ import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "reac
 import { useProject } from "../store/project";
 import { toRgb } from "./cssColor";
 import { drawOn, drawSoon } from "./drawQueue";
-import type { Fill } from "./hullColors";
-import { type IdMap, paintPixels } from "./idMap";
+import { type IdMap, type Paint, paintPixels } from "./idMap";
 import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
 
@@ -15,7 +14,7 @@ type IdPictureProps = Source & {
   label?: string;
   /** The colour of the hull in a place, in CSS; -1 stands for geometry that is no hull. */
   colors: (position: number) => string;
-  fill?: (position: number) => Fill;
+  fill?: Paint["fill"];
   /** In CSS pixels; the picture fills its place without it. */
   width?: number;
   className?: string;

@@ -38,7 +38,8 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned,
     [marked, of, labels, palette],
   );
   const fill = useCallback(
-    (k: number): Fill => {
+    (k: number): Fill | "outlined" => {
+      if (marked?.has(k)) return "outlined";
       const sure = marked || of === "output" ? UNLABELLED : (confidence?.[k] ?? UNLABELLED);
       return isUnsure(sure) ? "hatched" : sure === UNLABELLED || sure === GIVEN ? "solid" : "dotted";
     },

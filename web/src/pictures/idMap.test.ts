@@ -27,6 +27,12 @@ test("what is covered by no hull is a non-convex piece; where nothing is, nothin
   expect(pixel(out, 1)).toEqual([0, 0, 0, 0]);
 });
 
+test("outlined hulls have a dark line within their edge", () => {
+  const ids = Array.from({ length: 64 }, (_, k) => (k % 8 ? 1 : 2));
+  const out = paintPixels(map(ids.map((id) => [0, id, 255, 255]), 8), { ...red, fill: (k) => (k === 0 ? "outlined" : "solid") });
+  expect([27, 26, 24].map((k) => pixel(out, k)[k === 24 ? 2 : 0])).toEqual([200, 50, 100]);
+});
+
 test("hatched hulls show lighter stripes, dotted ones darker dots on a paler ground, others neither", () => {
   const row = Array.from({ length: 20 }, () => [0, 1, 255, 255]);
   const greens = (fill: Fill) => new Set(Array.from(paintPixels(map(row), { ...red, fill: () => fill })).filter((_, k) => k % 4 === 1));

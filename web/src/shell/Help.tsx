@@ -4,6 +4,8 @@ import { Dialog } from "radix-ui";
 import { useState } from "react";
 import type { Command } from "../commands/command";
 import { foldCommands, listCommands } from "../commands/list";
+import { ICONS } from "../family/Card";
+import { MEANINGS } from "../family/cardText";
 import { startTour } from "../store/tour";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
@@ -72,6 +74,7 @@ function Content() {
             .map(({ group, commands }) => (
               <Group key={group} name={group} commands={commands} />
             ))}
+          {!word && <Signs />}
         </div>
       </div>
     </>
@@ -90,6 +93,28 @@ function How() {
         </li>
       ))}
     </ol>
+  );
+}
+
+/** What the signs on the cards of the family mean. */
+function Signs() {
+  return (
+    <div className={css.group} role="group" aria-label="Signs on the cards of the family">
+      <h3>Signs on the cards of the family</h3>
+      <dl>
+        {Object.entries(MEANINGS).map(([name, text]) => {
+          const Icon = ICONS[name as keyof typeof MEANINGS];
+          return (
+            <div key={name} className={css.pair}>
+              <dt>{text}</dt>
+              <dd>
+                <Icon size={14} role="img" aria-label={name} />
+              </dd>
+            </div>
+          );
+        })}
+      </dl>
+    </div>
   );
 }
 

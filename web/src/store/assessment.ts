@@ -115,8 +115,16 @@ export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): 
 /** Whether a question is open. */
 export const isAsked = (state: Pick<ProjectState, "assessment">): boolean => openQuestion(state) !== null;
 
-/** Assets of a group whose hulls get another label than the others, or, with null, none. */
+/** Hulls of a group, by their keys, that get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
+type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;
+export const keyOf = ({ asset, hull }: HullInQuestion): string => `${asset}#${hull}`;
+
+/** The label that a hull of a group gets; null where it is left out. */
+export function exceptionOf(one: HullInQuestion, exceptions: Exceptions, label: string | null = null): string | null {
+  const given = exceptions[keyOf(one)];
+  return given === undefined ? label : given;
+}
 
 /** Positions of the hulls in question, by asset. */
 export function placesOf({ hulls }: Pick<ReviewQuestionView, "hulls">): Readonly<Record<string, readonly number[]>> {

@@ -3,7 +3,7 @@ import type { Card, ConfidenceView, ProjectView } from "../wire";
 import { faultsOf, weightOf } from "./checks";
 import { flagsOf } from "./goals";
 import { oncePer } from "./once";
-import { useProject } from "./project";
+import { oncePerFamily, useProject } from "./project";
 import { type FilterName, type Filters, useWorkspace } from "./workspace";
 
 type Cards = Readonly<Record<string, Card>>;
@@ -20,6 +20,9 @@ export const countUnsure = (card: Card): number => card.confidence.filter(isUnsu
 
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label === UNLABELLED).length;
+
+/** Whether no hull of the family has a label. */
+export const isBare = oncePerFamily((cards) => !cards.some((card) => card.labels.some((label) => label !== UNLABELLED)));
 
 const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label === UNLABELLED),

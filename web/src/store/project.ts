@@ -1,6 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
+import { ownPartsOf } from "./commonParts";
 import { oncePer } from "./once";
 import type { Card, ConfidenceView, Event, Hello, Reach } from "../wire";
 
@@ -140,6 +141,9 @@ export const oncePerFamily = <T>(compute: (cards: readonly Card[]) => T): ((card
 
 /** How many assets could be read. */
 export const countReadable = oncePerFamily((cards) => cards.filter((card) => card.hulls !== null).length);
+
+/** What each asset has alone of its name. */
+export const useOwnNames = (): ((asset: string) => string) => useProject(({ order }) => ownPartsOf(order));
 
 function byAsset<T extends { asset: string }>(rows: readonly T[]): Record<string, T> {
   return Object.fromEntries(rows.map((row) => [row.asset, row]));

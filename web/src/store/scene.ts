@@ -15,6 +15,8 @@ export interface ScenePart {
   /** Its lowest and highest corner where it stands [m]. */
   readonly low: readonly [number, number, number];
   readonly high: readonly [number, number, number];
+  /** By how much it is drawn larger than it is. */
+  readonly scale: number;
 }
 
 /** What the viewport shows of an asset in one state. */
@@ -29,4 +31,6 @@ export interface Scene {
   readonly edit: EditHeader | null;
   /** The assets side by side, the open one among them; left out where it is alone. */
   readonly parts?: readonly ScenePart[];
+  /** Whether their sizes differ so much that they can be drawn in one size. */
+  readonly isUneven?: boolean;
 }

@@ -63,7 +63,7 @@ export async function sceneOf(asset: string, showing: Showing): Promise<Scene> {
 async function sheetSceneOf(assets: readonly string[], open: string): Promise<Scene> {
   const alone = sceneOf(open, { kind: "source" });
   const scenes = await Promise.allSettled(assets.map((asset) => (asset === open ? alone : sceneOf(asset, { kind: "source" }))));
-  return sheetOf(scenes.flatMap((one) => (one.status === "fulfilled" ? [one.value] : [])), open) ?? alone;
+  return sheetOf(scenes.flatMap((one) => (one.status === "fulfilled" ? [one.value] : [])), open, useWorkspace.getState().view.oneSize) ?? alone;
 }
 
 /** Puts a scene together; hulls of an edit that the asset has, too, take their shape from there. */
@@ -154,7 +154,7 @@ export function useAssetView(): AssetView | null {
 export function followWorkspace(): () => void {
   const stops = [
     useWorkspace.subscribe((now, before) => {
-      if (now.asset !== before.asset || now.stage !== before.stage || now.sheet !== before.sheet) void showUsual(now);
+      if (now.asset !== before.asset || now.stage !== before.stage || now.sheet !== before.sheet || now.view.oneSize !== before.view.oneSize) void showUsual(now);
       else if (now.showing !== before.showing) void showScene(now.asset, now.showing);
     }),
     useProject.subscribe((now, before) => {

@@ -39,12 +39,17 @@ describe("assets side by side", () => {
     expect(again?.hulls.every(({ shape }, k) => shape === sheet?.hulls[k]?.shape)).toBe(true);
   });
 
-  it("are drawn in one size where they differ much, and as they are where they do not", () => {
-    const heights = (some: readonly Scene[]) => sheetOf(some, "x")?.parts?.map(({ high }) => high[2]) ?? [];
-    const [small, large] = heights([table("x"), table("y", 100)]);
-    expect(large).toBeCloseTo(small ?? 0, 1);
-    const [one, two] = heights([table("x"), table("y", 2)]);
-    expect(two).toBeCloseTo(2 * (one ?? 0), 1);
+  it.each([
+    [2, false, 1],
+    [100, false, 1],
+    [2, true, 1],
+    [100, true, 0.01],
+  ])("%s times as large and one size wished %s: drawn by %s", (times, oneSize, scale) => {
+    const other = sheetOf([table("x"), table("y", times)], "x", oneSize);
+    const [one, two] = other?.parts ?? [];
+    expect(two?.scale).toBeCloseTo(scale, 3);
+    expect(two?.high[2]).toBeCloseTo(scale * times * (one?.high[2] ?? 0), 3);
+    expect(other?.isUneven).toBe(times > 3);
   });
 });
 

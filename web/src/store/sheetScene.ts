@@ -10,23 +10,27 @@ interface Box {
   readonly high: Triple;
 }
 
-/** Room between assets, in widths; rows are farther apart, so that the one in front hides little of the next. */
+/** Room between assets, in widths; rows are so far apart that the one in front hides nothing of the next, nor its name. */
 const GAP = 0.25;
-const ROW_GAP = 1.5; // heights
+const ROW_GAP = 2.6; // heights; 1 / tan(elevation) where one looks from at first, and room for a name
+/** How much of the ground is seen from there, across the picture. */
+const STEEP = 0.41;
 /** Wished width of all, in heights of all as they are seen. */
 const WIDE = 1.5;
 /** Where one looks from as a sheet is opened, about the upright axis: rows go across it [rad]. */
 export const SHEET_AZIMUTH = -0.95;
-/** Assets are drawn in one size where the largest is so many times the smallest. */
+/** Assets can be drawn in one size where the largest is so many times the smallest. */
 const UNEQUAL = 3;
 
 /** Puts scenes of single assets beside each other, in their order; open: the asset whose hulls come first in the list,
- * so that their positions hold. */
-export function sheetOf(scenes: readonly Scene[], open: string): Scene | null {
+ * so that their positions hold; oneSize: whether assets of very different sizes are drawn in that of the first. */
+export function sheetOf(scenes: readonly Scene[], open: string, oneSize = false): Scene | null {
   const first = scenes.find(({ asset }) => asset === open) ?? scenes[0];
   if (!first) return null;
   const boxes = scenes.map(standingBox);
-  const scales = scalesOf(boxes);
+  const sizes = boxes.map(({ low, high }) => Math.hypot(...low.map((value, axis) => (high[axis] ?? 0) - value)) || 1);
+  const isUneven = Math.max(...sizes) > UNEQUAL * Math.min(...sizes);
+  const scales = sizes.map((size) => (oneSize && isUneven ? (sizes[0] ?? 1) / size : 1));
   const at = placesFor(boxes.map((box, k) => scaleBox(box, scales[k] ?? 1)));
   const placed = new Map(scenes.map((scene, k) => [scene.asset, place(scene, boxes[k] as Box, scales[k] ?? 1, at[k] as Triple)]));
   const order = [first, ...scenes.filter((scene) => scene !== first)].flatMap(({ asset }) => placed.get(asset) ?? []);
@@ -34,7 +38,7 @@ export function sheetOf(scenes: readonly Scene[], open: string): Scene | null {
   const contacts = order.flatMap((one) => one.contacts);
   const view = { ...first.view, hulls, contacts, opaque: [], near_misses: [], upright: null, unturned: null, has_visual: false };
   const parts = scenes.flatMap(({ asset }) => placed.get(asset)?.part ?? []);
-  return { ...first, view: view as unknown as Scene["view"], hulls, contacts, opaque: [], edit: null, parts };
+  return { ...first, view: view as unknown as Scene["view"], hulls, contacts, opaque: [], edit: null, parts, isUneven };
 }
 
 /** Where each box goes: rows from the back to the front, each from the left to the right as one looks at them. */
@@ -44,17 +48,11 @@ function placesFor(boxes: readonly Box[]): Triple[] {
   const seen = (along: number, across: number) => Math.abs(along) * size(0) + Math.abs(across) * size(1);
   // to the right, and away from the eye
   const [wide, deep] = [seen(sine, cosine) * (1 + GAP), seen(cosine, sine) + size(2) * ROW_GAP];
-  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * WIDE * size(2) * 1.3) / wide))));
+  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * WIDE * deep * STEEP) / wide))));
   return boxes.map((_, k) => {
     const [right, near] = [(k % columns) * wide, Math.floor(k / columns) * deep];
     return [-sine * right + cosine * near, cosine * right + sine * near, 0];
   });
-}
-
-function scalesOf(boxes: readonly Box[]): number[] {
-  const sizes = boxes.map(({ low, high }) => Math.hypot(...low.map((value, axis) => (high[axis] ?? 0) - value)) || 1);
-  const isUnequal = Math.max(...sizes) > UNEQUAL * Math.min(...sizes);
-  return sizes.map((size) => (isUnequal ? (sizes[0] ?? 1) / size : 1));
 }
 
 const scaleBox = ({ low, high }: Box, by: number): Box => ({ low: scaled(low, by), high: scaled(high, by) });
@@ -88,7 +86,7 @@ function place(scene: Scene, { low, high }: Box, scale: number, at: Triple): Pla
   return {
     hulls: scene.hulls.map((hull) => ({ ...hull, name: sheetName(asset, hull.name), shape: moved(hull.shape, view.upright, scale, by) })),
     contacts: scene.contacts.map(([a, b]) => [sheetName(asset, a), sheetName(asset, b)] as const),
-    part: { asset, low: there(low), high: there(high) },
+    part: { asset, low: there(low), high: there(high), scale },
   };
 }
 

@@ -51,6 +51,8 @@ export interface Draft extends Required<ActionCall> {
 export interface ViewSettings {
   colorBy: ColorBy;
   projection: "perspective" | "orthographic";
+  /** Whether assets of very different sizes are drawn in one size where they are side by side. */
+  oneSize: boolean;
   ghost: boolean;
   wireframe: boolean;
   contacts: boolean;
@@ -148,6 +150,7 @@ export const initialWorkspace: WorkspaceState = {
   view: {
     colorBy: "label",
     projection: "perspective",
+    oneSize: false,
     ghost: false,
     wireframe: false,
     contacts: false,

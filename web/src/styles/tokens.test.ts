@@ -18,7 +18,7 @@ const PAIRS = [
   ["bad", "panel"],
   ...["axis-x", "axis-y", "axis-z", "measure"].flatMap((ink) => ["viewport-top", "viewport-bottom"].map((ground) => [ink, ground] as const)),
 ] as const;
-const SIGNS = ["accent", "outline-selected", "preview", "removed", "highlight"] as const;
+const SIGNS = ["accent", "preview", "removed", "highlight"] as const;
 
 for (const [theme, colors] of [
   ["light", light],

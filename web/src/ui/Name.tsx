@@ -1,16 +1,17 @@
-// A name that loses first what others beside it have, too, and last what it has alone; a screen reader says it whole.
-import { type CommonParts, splitName } from "../store/commonParts";
+// A name without what others beside it have, too, cut in its middle where there is no room; a screen reader says it whole.
 import css from "./name.module.css";
 
-export function Name({ text, parts, hidden = false }: { text: string; parts: CommonParts; hidden?: boolean }) {
-  const [head, own, end, tail] = splitName(text, parts);
+/** Letters at the end that stay in sight. */
+const END = 5;
+
+/** own: what is shown of the text; hidden: whether it is said elsewhere. */
+export function Name({ text, own = text, hidden = false }: { text: string; own?: string; hidden?: boolean }) {
+  const cut = own.length > 2 * END ? own.length - END : own.length;
   return (
     <>
       <span className={css.name} aria-hidden>
-        {head && <span className={css.common}>{head}</span>}
-        <span className={css.own}>{own}</span>
-        {end && <span className={css.end}>{end}</span>}
-        {tail && <span className={css.common}>{tail}</span>}
+        <span>{own.slice(0, cut)}</span>
+        {cut < own.length && <span className={css.end}>{own.slice(cut)}</span>}
       </span>
       {!hidden && <span className="visually-hidden">{text}</span>}
     </>

@@ -1,6 +1,7 @@
 // The stage in which hulls get labels: the vocabulary, the walk through labels that nobody gave, and ways to get labels.
 import { Check, ChevronRight } from "lucide-react";
 import { fillOf } from "../../pictures/hullColors";
+import { hullNamesOf } from "../../store/commonParts";
 import { confirmLabels, labelProgress, placeInWalk, walk } from "../../store/labelWalk";
 import { useProject } from "../../store/project";
 import { type SceneHull, useScenes } from "../../store/scenes";
@@ -36,6 +37,9 @@ function Walk() {
   const title = counts.flatMap(([count, what]) => (count ? `${count.toLocaleString("en-GB")} ${what}` : [])).join(", ");
   return (
     <Section title={title} aside={next}>
+      <span className={css.meter} aria-hidden>
+        {counts.map(([count, what]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}
+      </span>
       {inHand && <HullInHand {...inHand} />}
     </Section>
   );
@@ -49,6 +53,7 @@ interface InHand {
 
 function HullInHand({ hull, at, of }: InHand) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === hull.label)?.color);
+  const short = useScenes(({ scene }) => (scene ? hullNamesOf(scene)(hull.name) : hull.name));
   const sure = hull.confidence === null ? "no label" : `${hull.confidence.toFixed(2)} sure`;
   return (
     <Note>
@@ -56,7 +61,7 @@ function HullInHand({ hull, at, of }: InHand) {
         <Swatch color={color ?? "var(--hull-unlabelled)"} fill={fillOf(hull)} />
         <span role="status">
           <strong>{hull.label ?? (hull.look ? "no part" : "No label")}</strong>
-          {hull.look && "?"} {hull.name}
+          {hull.look && "?"} <span title={hull.name}>{short}</span>
           <br />
           hull {(at + 1).toLocaleString("en-GB")} of {of.toLocaleString("en-GB")}, {[sure, hull.source && sourceText(hull.source)].filter(Boolean).join(", ")}
         </span>

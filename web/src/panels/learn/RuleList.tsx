@@ -4,11 +4,12 @@ import { memo, useState } from "react";
 import { chooseReading } from "../../commands/learn";
 import { highlightOfRule } from "../../store/highlight";
 import { coverageOfRule, coverageText } from "../../store/outcome";
-import { countReadable, useProject } from "../../store/project";
+import { countReadable, useOwnNames, useProject } from "../../store/project";
 import { extractorOf, learnedDiffers, readingsOf } from "../../store/readings";
-import { countText, shortName } from "../../store/words";
+import { countText } from "../../store/words";
 import { setHighlight, visit } from "../../store/workspace";
 import { Button } from "../../ui/Button";
+import { Name } from "../../ui/Name";
 import type { CandidateView, RuleView } from "../../wire";
 import { whilePointed } from "../../ui/whilePointed";
 import css from "./learn.module.css";
@@ -162,13 +163,14 @@ function ReadingRow({ reading, own }: { reading: CandidateView; own: boolean }) 
 
 /** The assets on which a reading selects something else than the program's. */
 function Elsewhere({ assets }: { assets: readonly string[] }) {
+  const ownName = useOwnNames();
   if (!assets.length) return <span className={css.facts}>selects the same on all your assets</span>;
   return (
     <span className={css.facts}>
       differs on{" "}
       {assets.slice(0, 4).map((asset) => (
         <button key={asset} type="button" className={css.link} title={`Open ${asset}`} onClick={() => visit(asset, { kind: "source" })}>
-          {shortName(asset)}
+          <Name text={asset} own={ownName(asset)} />
         </button>
       ))}
       {assets.length > 4 && <span>and {assets.length - 4} more</span>}

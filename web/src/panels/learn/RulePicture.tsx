@@ -25,9 +25,10 @@ export function HullsPicture({ picture, hulls, label }: {
     },
     [marked],
   );
+  const fill = useCallback((position: number) => (marked.has(position) ? "outlined" : "solid"), [marked]);
   if (picture === "failed") return <div className={css.noPicture}>No picture</div>;
   if (!picture) return <div className={css.noPicture} aria-hidden />;
-  return <IdPicture png={picture.png} label={label} colors={colors} className={css.picture ?? ""} />;
+  return <IdPicture png={picture.png} label={label} colors={colors} fill={fill} className={css.picture ?? ""} />;
 }
 
 export interface RulePictureView {

@@ -1,9 +1,10 @@
 // The hulls that a question is about, each in its place on its asset; exceptions get another label, or are left out.
+import { type MouseEvent, useMemo } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
-import { type Exceptions, placesOf } from "../../store/assessment";
-import { commonPartsOf } from "../../store/commonParts";
-import { useProject } from "../../store/project";
-import { countText, listText } from "../../store/words";
+import { exceptionOf, type Exceptions, keyOf } from "../../store/assessment";
+import { findOwnParts } from "../../store/commonParts";
+import { useOwnNames, useProject } from "../../store/project";
+import { countText } from "../../store/words";
 import { visit } from "../../store/workspace";
 import { Name } from "../../ui/Name";
 import { Swatch } from "../../ui/Section";
@@ -11,10 +12,10 @@ import type { ReviewQuestionView } from "../../wire";
 import { HullsPicture, useRulePicture } from "../learn/RulePicture";
 import css from "./questions.module.css";
 
-/** Assets whose pictures are drawn; the others are told in words. */
-const MOST = 60;
+/** Hulls whose pictures are drawn; the others are counted. */
+const MOST = 200;
 
-/** Of so few, each is drawn from a side where the hulls are seen. */
+/** Of so few, each is drawn from a side where it is seen. */
 const FEW = 12;
 
 interface GroupHullsProps {
@@ -25,52 +26,58 @@ interface GroupHullsProps {
 
 export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) {
   const { kind, hulls, choices } = question;
-  const order = useProject((state) => state.order);
-  const places = placesOf(question);
-  const assets = Object.keys(places);
+  const ownName = useOwnNames();
+  const drawn = hulls.slice(0, MOST);
   const labels = choices.flatMap((choice) => choice.label ?? []);
   const canVary = kind === "group" && hulls.length > 1 && labels.length > 0;
-  const vary = (asset: string) => onChange(nextException(exceptions, asset, labels));
   return (
-    <ul className={css.group} data-few={assets.length < 3} aria-label={countText(hulls.length, "hull")} tabIndex={-1}>
-      {assets.slice(0, MOST).map((asset) => {
-        const names = hulls.filter((one) => one.asset === asset).map((one) => one.hull);
-        const given = asset in exceptions ? (exceptions[asset] ?? null) : (labels[0] ?? null);
+    <ul className={css.group} data-few={hulls.length < 3} aria-label={countText(hulls.length, "hull")} tabIndex={-1}>
+      {[...new Set(drawn.map(({ asset }) => asset))].map((asset) => {
+        const own = drawn.filter((one) => one.asset === asset);
+        const shortOf = findOwnParts(own.map(({ hull }) => hull));
+        const vary = (one: HullInQuestion, { shiftKey }: MouseEvent) =>
+          onChange(nextException(exceptions, [one, ...(shiftKey ? own : [])].map(keyOf), labels));
         return (
-          <li key={asset} className={css.member} data-exception={asset in exceptions}>
-            <button
-              type="button"
-              className={css.look}
-              title={`${asset}: ${names.join(", ")}`}
-              aria-label={`Open ${asset} with ${listText(names)} selected`}
-              onClick={() => visit(asset, { kind: "source" }, names)}
-            >
-              {assets.length > FEW ? (
-                <Thumbnail asset={asset} of="source" highlight={places[asset]} label="" />
-              ) : (
-                <InSight asset={asset} names={names} />
-              )}
-            </button>
+          <li key={asset} className={css.asset} data-several={own.length > 1}>
             <span className={css.where} title={asset}>
-              <Name text={asset} parts={commonPartsOf(order)(asset)} />
-              {names.length > 1 && <b> ×{names.length}</b>}
+              <Name text={asset} own={ownName(asset)} />
+              {own.length > 1 && <b> ×{own.length}</b>}
             </span>
-            {canVary && (
-              <button type="button" className={css.label} onClick={() => vary(asset)} title="Another label, or left out">
-                <span className="visually-hidden">{asset}: </span>
-                <Label name={given} />
-              </button>
-            )}
+            {own.map((one) => (
+              <div key={one.hull} className={css.member} data-exception={keyOf(one) in exceptions}>
+                <button
+                  type="button"
+                  className={css.look}
+                  title={`${asset}: ${one.hull}`}
+                  aria-label={`Open ${asset} with ${one.hull} selected`}
+                  onClick={() => visit(asset, { kind: "source" }, [one.hull])}
+                >
+                  {hulls.length > FEW ? <Thumbnail asset={asset} of="source" highlight={[one.place]} label="" /> : <InSight asset={asset} hull={one.hull} />}
+                  {own.length > 1 && <span className={css.where}>{shortOf(one.hull)}</span>}
+                </button>
+                {canVary && (
+                  <button type="button" className={css.label} onClick={(event) => vary(one, event)} title="Another label, or left out; with Shift for all of this asset">
+                    <span className="visually-hidden">
+                      {one.hull} of {asset}:{" "}
+                    </span>
+                    <Label name={exceptionOf(one, exceptions, labels[0])} />
+                  </button>
+                )}
+              </div>
+            ))}
           </li>
         );
       })}
-      {assets.length > MOST && <li className={css.dim}>and {countText(assets.length - MOST, "more asset")}</li>}
+      {hulls.length > MOST && <li className={css.dim}>and {countText(hulls.length - MOST, "more hull")}</li>}
     </ul>
   );
 }
 
-/** An asset from a side where the hulls in question are seen, or through what hides them. */
-function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
+type HullInQuestion = ReviewQuestionView["hulls"][number];
+
+/** An asset from a side where a hull is seen, or through what hides it. */
+function InSight({ asset, hull }: { asset: string; hull: string }) {
+  const names = useMemo(() => [hull], [hull]);
   return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
 }
 
@@ -85,19 +92,20 @@ function Label({ name }: { name: string | null }) {
   );
 }
 
-/** From one label of a question to the next, then left out, then as the others again. */
-export function nextException(exceptions: Exceptions, asset: string, labels: readonly string[]): Exceptions {
-  const { [asset]: now, ...others } = exceptions;
+/** From one label of a question to the next, then left out, then as the others again; of the first hull, and so of all. */
+export function nextException(exceptions: Exceptions, keys: readonly string[], labels: readonly string[]): Exceptions {
+  const [first = ""] = keys;
   const row = [...labels.slice(1), null];
-  const next = asset in exceptions ? row[row.indexOf(now ?? null) + 1] : row[0];
-  return next === undefined ? others : { ...others, [asset]: next };
+  const next = first in exceptions ? row[row.indexOf(exceptions[first] ?? null) + 1] : row[0];
+  const others = Object.entries(exceptions).filter(([key]) => !keys.includes(key));
+  return Object.fromEntries([...others, ...(next === undefined ? [] : keys.map((key) => [key, next] as const))]);
 }
 
 /** `21 are leg, 2 panel; 1 left out`. */
 export function groupText({ hulls }: ReviewQuestionView, label: string, exceptions: Exceptions): string {
   const counts = new Map<string | null, number>();
-  for (const { asset } of hulls) {
-    const given = asset in exceptions ? (exceptions[asset] ?? null) : label;
+  for (const one of hulls) {
+    const given = exceptionOf(one, exceptions, label);
     counts.set(given, (counts.get(given) ?? 0) + 1);
   }
   const left = counts.get(null);

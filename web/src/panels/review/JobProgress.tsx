@@ -3,9 +3,11 @@ import { Square } from "lucide-react";
 import { useState } from "react";
 import { cancelJob } from "../../store/jobs";
 import { rateOf } from "../../store/reviews";
-import { capitalize, countText, shortName } from "../../store/words";
+import { capitalize, countText } from "../../store/words";
 import { openAsset } from "../../store/workspace";
+import { useOwnNames } from "../../store/project";
 import { Button } from "../../ui/Button";
+import { Name } from "../../ui/Name";
 import { Note } from "../../ui/Section";
 import type { Job, JobLine } from "../../wire";
 import css from "./review.module.css";
@@ -47,6 +49,7 @@ const SIGNS: Readonly<Record<JobLine["status"], string>> = { done: "✓", edited
 
 /** Results by asset in a job. */
 export function JobLines({ lines }: { lines: readonly JobLine[] }) {
+  const ownName = useOwnNames();
   if (!lines.length) return null;
   return (
     <ul className={css.jobLines} aria-label="Results by asset">
@@ -54,7 +57,9 @@ export function JobLines({ lines }: { lines: readonly JobLine[] }) {
         <li key={line.asset}>
           <button type="button" data-status={line.status} title={`Open ${line.asset}`} onClick={() => openAsset(line.asset)}>
             <span aria-hidden>{SIGNS[line.status]}</span>
-            <strong>{shortName(line.asset)}</strong>
+            <strong>
+              <Name text={line.asset} own={ownName(line.asset)} />
+            </strong>
             <span>
               {line.text || line.status}
               {line.before.map((text) => (

@@ -6,7 +6,7 @@ import { acceptLegal } from "../../commands/review";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { countByEdit, faultsOf, findingsText } from "../../store/checks";
 import { flagsOf } from "../../store/goals";
-import { useProject } from "../../store/project";
+import { useOwnNames, useProject } from "../../store/project";
 import {
   getVerdict,
   type Group,
@@ -18,9 +18,10 @@ import {
   useVerdicts,
   verdictKey,
 } from "../../store/reviews";
-import { errorParts, shortName } from "../../store/words";
+import { errorParts } from "../../store/words";
 import { openAsset, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
+import { Name } from "../../ui/Name";
 import type { Card } from "../../wire";
 import { CheckAll } from "./CheckAll";
 import css from "./review.module.css";
@@ -122,6 +123,7 @@ function keyOf(line: Line | undefined, k: number): string | number {
 /** One result in the list: pictures before and after, numbers, and how it stands. */
 const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen: () => void }) {
   const current = useWorkspace((state) => state.asset === card.asset);
+  const ownName = useOwnNames();
   const written = isWritten(card);
   const open = () => {
     openAsset(card.asset);
@@ -134,7 +136,9 @@ const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen
         {written && <Thumbnail asset={card.asset} of="output" size={68} label="" />}
       </span>
       <span className={css.resultText}>
-        <strong>{shortName(card.asset)}</strong>
+        <strong>
+          <Name text={card.asset} own={ownName(card.asset)} />
+        </strong>
         {written && (
           <span className={css.facts}>
             {card.output === "unchanged" ? `${card.hulls ?? 0} hulls, unchanged` : `${card.hulls ?? 0} → ${card.after ?? 0} hulls`} <Legality card={card} /> <CheckCount card={card} />

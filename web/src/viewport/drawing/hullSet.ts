@@ -87,7 +87,6 @@ export class HullSet {
   }
 
   setInk(ink: ThemeColors): void {
-    this.common.ink.tint.value = ink.selected;
     this.common.ink.pale.value = ink.pale;
     this.common.ink.removed.value = ink.removed;
   }

@@ -27,7 +27,7 @@ export interface SharedUniforms {
   readonly colors: IUniform;
   readonly states: IUniform;
   readonly explode: IUniform<number>;
-  readonly ink: Readonly<Record<"tint" | "pale" | "removed", IUniform>>;
+  readonly ink: Readonly<Record<"pale" | "removed", IUniform>>;
   readonly pixel: IUniform<number>;
 }
 
@@ -36,7 +36,7 @@ export function shareUniforms(colors: ByteTable, states: ByteTable, ink: ThemeCo
     colors: { value: colors.texture },
     states: { value: states.texture },
     explode: { value: 0 },
-    ink: { tint: { value: ink.selected }, pale: { value: ink.pale }, removed: { value: ink.removed } },
+    ink: { pale: { value: ink.pale }, removed: { value: ink.removed } },
     pixel: { value: 1 },
   };
 }
@@ -109,7 +109,6 @@ const FACE_VERTEX = /* glsl */ `
   flat out vec4 color;
   flat out vec3 stripe;
   flat out float role;
-  uniform vec3 tint;
   uniform vec3 pale;
   uniform vec3 removed;
   #include <colorspace_pars_fragment>
@@ -121,8 +120,8 @@ const FACE_VERTEX = /* glsl */ `
     if (role == ${ROLE.removed}.0) base.rgb = mix(base.rgb, removed, 0.55);
     if (role == ${ROLE.washed}.0) base.rgb = mix(base.rgb, pale, 0.45);
     float lit = light(mat3(modelViewMatrix) * normal);
-    vec3 glow = mix(vec3(1.0), tint, state.g);
-    float share = max(0.26 * state.g, 0.16 * state.a);
+    vec3 glow = vec3(1.0); // paler, in no other hue: that is the label's, and outlines say what is selected
+    float share = 0.16 * max(state.g, state.a);
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = color.rgb;
     if (base.a < 0.75) {

@@ -20,7 +20,7 @@ describe.each([
   ["light", light],
   ["dark", dark],
 ] as const)("in the %s theme", (_, theme) => {
-  const grounds = ["viewport-top", "viewport-bottom", "hull-unlabelled", "hull-pale", "hull-opaque", "preview", "removed", "outline-selected"];
+  const grounds = ["viewport-top", "viewport-bottom", "hull-unlabelled", "hull-pale", "hull-opaque", "preview", "removed", "highlight"];
   const colors = [...LABELS, ...PALETTE, ...grounds.map((name) => theme[name] ?? "")];
   const lit = colors.flatMap((color) => LIGHTS.map((share) => luminance(linear(color).map((part) => Math.min(1, part * share)))));
 

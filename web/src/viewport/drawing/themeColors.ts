@@ -3,7 +3,7 @@ import { Color } from "three";
 
 const NAMES = {
   accent: "--accent",
-  selected: "--outline-selected",
+  selected: "--highlight",
   ringDark: "--ring-dark",
   ringLight: "--ring-light",
   ringMade: "--ring-made",

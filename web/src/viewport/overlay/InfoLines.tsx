@@ -2,6 +2,7 @@
 import { fillOf, PALETTE } from "../../pictures/hullColors";
 import { useStage } from "../stage/context";
 import { useAlike } from "../../store/alike";
+import { hullNamesOf } from "../../store/commonParts";
 import { useProject } from "../../store/project";
 import { type Scene, useScenes } from "../../store/scenes";
 import { lengthText, volumeText } from "../../store/units";
@@ -43,11 +44,12 @@ function PointedHull() {
 function HullLine({ hull }: { hull: HullView }) {
   const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
   const unit = useUnit();
+  const short = useScenes(({ scene }) => (scene ? hullNamesOf(scene)(hull.name) : hull.name));
   const alike = useAlike((state) => (state.hull === hull.name ? state.others.length : 0));
   const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
   return (
     <div className={css.pointed} data-testid="pointed">
-      <b>{hull.name}</b>
+      <b title={hull.name}>{short}</b>
       {hull.look === null ? (
         <span>no label</span>
       ) : (

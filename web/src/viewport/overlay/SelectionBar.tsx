@@ -3,12 +3,14 @@
 import { Columns3, X } from "lucide-react";
 import { useEffect } from "react";
 import { selectedByAsset, unselectAsset } from "../../store/familySelection";
-import { useProject } from "../../store/project";
+import { useOwnNames, useProject } from "../../store/project";
+import { useScenes } from "../../store/scenes";
 import { toggleSheet } from "../../store/sheet";
 import { prepareSimilar, useSimilar } from "../../store/similar";
 import { countText } from "../../store/words";
-import { openAsset, select, setBrush, useWorkspace } from "../../store/workspace";
+import { openAsset, select, setBrush, setView, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
+import { Name } from "../../ui/Name";
 import { Swatch } from "../../ui/Section";
 import css from "./selectionBar.module.css";
 
@@ -75,6 +77,8 @@ function Several() {
   const hulls = groups.reduce((sum, [, names]) => sum + names.length, 0);
   const last = useSimilar((state) => state.last);
   const searching = useSimilar((state) => state.searching);
+  const isUneven = useScenes(({ scene }) => scene?.isUneven);
+  const oneSize = useWorkspace((workspace) => workspace.view.oneSize);
   return (
     <div className={css.bar} role="status" aria-label="Several assets" data-testid="several">
       {sheet > 0 && <b>{countText(sheet, "asset")} side by side</b>}
@@ -95,16 +99,22 @@ function Several() {
       <Button look="quiet" icon={Columns3} onClick={toggleSheet} keys="W" tip={sheet ? "Show the open asset alone" : "Show them in one view"}>
         {sheet ? "One asset" : "Side by side"}
       </Button>
+      {sheet > 0 && isUneven && (
+        <Button look="quiet" onClick={() => setView({ oneSize: !oneSize })} tip={oneSize ? "Draw them as large as they are to each other" : "Draw all as large as the first; each name says by how much"}>
+          {oneSize ? "True sizes" : "One size"}
+        </Button>
+      )}
       {isWide && <IconButton icon={X} name="Select nothing" keys="Esc" onClick={() => select([])} />}
     </div>
   );
 }
 
 function Group({ asset, count }: { asset: string; count: number }) {
+  const ownName = useOwnNames();
   return (
     <li>
       <button type="button" className={css.asset} title={`Open ${asset}`} onClick={() => openAsset(asset)}>
-        {asset}
+        <Name text={asset} own={ownName(asset)} />
       </button>
       <span className={css.faint}>{count}</span>
       <IconButton icon={X} name={`Take ${countText(count, "hull")} of ${asset} off the selection`} onClick={() => unselectAsset(asset)} />

@@ -1,10 +1,13 @@
 // The names of assets that are side by side, each at the foot of its asset.
 import { useRef } from "react";
-import { commonPartsOf, splitName } from "../../store/commonParts";
-import { useProject } from "../../store/project";
+import { cutMiddle } from "../../store/commonParts";
+import { useOwnNames } from "../../store/project";
 import { useScenes } from "../../store/scenes";
 import { useFrame, useStage } from "../stage/context";
 import css from "./selectionBar.module.css";
+
+/** Letters of a name; assets are near each other. */
+const MOST = 24;
 
 export function SheetNames() {
   const parts = useScenes(({ scene }) => scene?.parts);
@@ -15,7 +18,7 @@ type Parts = NonNullable<NonNullable<ReturnType<typeof useScenes.getState>["scen
 
 function Names({ parts }: { parts: Parts }) {
   const stage = useStage();
-  const order = useProject((state) => state.order);
+  const ownName = useOwnNames();
   const open = useScenes(({ scene }) => scene?.asset);
   const holder = useRef<HTMLDivElement>(null);
   useFrame(() => {
@@ -34,17 +37,12 @@ function Names({ parts }: { parts: Parts }) {
   });
   return (
     <div ref={holder} className={css.names} aria-hidden>
-      {parts.map(({ asset }) => (
+      {parts.map(({ asset, scale }) => (
         <span key={asset} data-open={asset === open}>
-          {ownPart(asset, order)}
+          {cutMiddle(ownName(asset), MOST)}
+          {scale !== 1 && ` · drawn ×${Number(scale.toPrecision(2))}`}
         </span>
       ))}
     </div>
   );
-}
-
-/** What tells an asset from the others of its family. */
-function ownPart(asset: string, order: readonly string[]): string {
-  const [, own, end] = splitName(asset, commonPartsOf(order)(asset));
-  return own + end;
 }

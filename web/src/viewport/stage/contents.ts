@@ -32,7 +32,8 @@ export class Contents {
   /** Shows a scene; whether it is of another asset than before. */
   show(scene: Scene | null): boolean {
     const last = this.shown?.scene;
-    const isOther = scene?.asset !== last?.asset || String(scene?.parts?.map(({ asset }) => asset)) !== String(last?.parts?.map(({ asset }) => asset));
+    const beside = (one?: Scene | null) => String(one?.parts?.map(({ asset, scale }) => [asset, scale]));
+    const isOther = scene?.asset !== last?.asset || beside(scene) !== beside(last);
     if (scene && !isOther && this.shown?.adopt(scene)) return false;
     this.shown?.dispose();
     if (isOther) {

@@ -68,6 +68,7 @@ export class Stage {
   show(scene: Scene | null): void {
     const isOther = this.contents.show(scene);
     this.view.bounds = this.contents.bounds;
+    this.project();
     this.invalidate();
     if (!isOther || !scene) return;
     this.pace.restart();
@@ -79,8 +80,13 @@ export class Stage {
   set(settings: Settings): void {
     this.settings = settings;
     this.view.explode = settings.explode;
-    this.view.projection = settings.projection;
+    this.project();
     this.invalidate();
+  }
+
+  /** Assets side by side are seen in parallel projection, so that their sizes compare. */
+  private project(): void {
+    this.view.projection = this.shown?.scene.parts ? "orthographic" : this.settings.projection;
   }
 
   /** The box around all there is, where the exploded view has moved it, in the canonical frame. */

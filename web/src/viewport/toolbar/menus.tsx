@@ -134,7 +134,9 @@ const UNITS = [
 
 /** The camera: projection, fitting, standard views; the grid, and the unit of lengths. */
 export function ViewMenu() {
-  const parallel = useWorkspace((workspace) => workspace.view.projection === "orthographic");
+  const isSheet = useWorkspace((workspace) => workspace.sheet.length > 0);
+  const parallel = useWorkspace((workspace) => workspace.view.projection === "orthographic") || isSheet;
+  const projection = parallel ? "Parallel projection; switch to perspective" : "Perspective; switch to parallel projection";
   const grid = useWorkspace((workspace) => workspace.view.grid);
   const unit = useUnit();
   // whether something is shown decides which lines make sense
@@ -143,7 +145,8 @@ export function ViewMenu() {
     <div className={css.group} role="group" aria-label="Camera">
       <IconButton
         icon={parallel ? Box : Cuboid}
-        name={parallel ? "Parallel projection; switch to perspective" : "Perspective; switch to parallel projection"}
+        name={isSheet ? "Parallel projection, in which sizes compare" : projection}
+        disabled={isSheet}
         keys={keyOf("projection")}
         onClick={commandOf("projection").run}
       />
