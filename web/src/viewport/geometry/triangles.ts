@@ -1,5 +1,5 @@
 // The triangles of many shapes in one buffer, with flat faces of few vertices, and the boxes around shapes.
-import { Box3, Matrix4, Triangle, Vector3 } from "three";
+import { Box3, Matrix4, Triangle } from "three";
 import type { Shape } from "../../server/packet";
 import { layersOf } from "./layers";
 
