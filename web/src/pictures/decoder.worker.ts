@@ -1,6 +1,5 @@
 // Decodes pictures beside the page, so that scrolling goes on meanwhile.
 import { type IdMap, readIdMap } from "./idMap";
-import { readPng } from "./png";
 
 /** What the worker is asked, and what it answers; map: null where the bytes are no such picture. */
 export interface DecodeRequest {
@@ -19,10 +18,10 @@ const page = self as unknown as {
 };
 
 page.onmessage = ({ data: { number, bytes } }) => {
-  void readPng(bytes)
-    .then(readIdMap)
-    .then(
-      (map) => page.postMessage({ number, map }, [map.ids.buffer, map.shade.buffer, map.coverage.buffer]),
-      () => page.postMessage({ number, map: null }, []),
-    );
+  try {
+    const map = readIdMap(bytes);
+    page.postMessage({ number, map }, [map.data.buffer]);
+  } catch {
+    page.postMessage({ number, map: null }, []);
+  }
 };

@@ -1,17 +1,25 @@
 // Colouring pictures of the server.
+import { encode } from "fast-png";
 import { expect, test } from "vitest";
 import type { Fill } from "./hullColors";
 import { type Paint, paintPixels, readIdMap } from "./idMap";
 
 const map = (pixels: number[][], width = pixels.length) =>
-  readIdMap({ width, height: pixels.length / width, data: new Uint8Array(pixels.flat()) });
+  readIdMap(encode({ width, height: pixels.length / width, data: new Uint8Array(pixels.flat()) }));
 
 const pixel = (data: Uint8ClampedArray, k: number) => [...data.subarray(4 * k, 4 * k + 4)];
 
 const red: Paint = { color: (k) => (k === 0 ? [200, 0, 0] : k < 0 ? [90, 90, 90] : [0, 0, 100]) };
 
-test("red and green together number the hull", () => {
-  expect([...map([[1, 2, 0, 255], [0, 1, 0, 255]]).ids]).toEqual([258, 1]);
+test("red and green together number the hull, also where it is hardly covered", () => {
+  const numbers: number[] = [];
+  paintPixels(map([[1, 2, 0, 255], [0, 1, 0, 3]]), { color: (k) => (numbers.push(k), [0, 0, 0]) });
+  expect(numbers).toEqual([257, 0]);
+});
+
+test("what is no such PNG is refused", () => {
+  expect(() => readIdMap(new Uint8Array([1, 2, 3]))).toThrow();
+  expect(() => readIdMap(encode({ width: 1, height: 1, data: new Uint8Array(3), channels: 3 }))).toThrow("another kind");
 });
 
 test("a pixel takes the colour of its hull, its shade and its coverage", () => {

@@ -27,7 +27,7 @@ class FakeWorker {
   }
 }
 
-const mapOf = (number: number): IdMap => ({ width: number, height: 1, ids: new Uint16Array(1), shade: new Uint8Array(1), coverage: new Uint8Array(1) });
+const mapOf = (number: number): IdMap => ({ width: number, height: 1, data: new Uint8Array(4) });
 let autoAnswer = true;
 let fetched: string[] = [];
 

@@ -1,6 +1,7 @@
 // The picture of an asset as a rule meets it, with some of its hulls in a strong colour; fetched once for each program.
 import { useCallback, useMemo } from "react";
 import { IdPicture } from "../../pictures/IdPicture";
+import { hullAt } from "../../pictures/idMap";
 import { decodePicture } from "../../pictures/pictureCache";
 import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
@@ -56,10 +57,13 @@ const MOST_SHOWN = 60;
 
 async function fetchView(asset: string, rule: number, version: string, show: readonly string[]): Promise<RulePictureView> {
   const { names, png } = await rulePicture(asset, rule, version, show);
-  const { ids } = await decodePicture(png);
-  const pixels = new Uint32Array(names.length + 1);
-  for (const id of ids) pixels[id] = (pixels[id] ?? 0) + 1;
-  return { names, png, inSight: new Set(names.filter((_, k) => (pixels[k + 1] ?? 0) >= ENOUGH)) };
+  const { data } = await decodePicture(png);
+  const pixels = new Uint32Array(names.length);
+  for (let k = 0; 4 * k < data.length; k++) {
+    const hull = hullAt(data, k);
+    pixels[hull] = (pixels[hull] ?? 0) + 1;
+  }
+  return { names, png, inSight: new Set(names.filter((_, k) => (pixels[k] ?? 0) >= ENOUGH)) };
 }
 
 interface RulePicture {

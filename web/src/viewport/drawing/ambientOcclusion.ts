@@ -1,25 +1,9 @@
 // Ambient occlusion: corners and gaps between hulls get less light. Reckoned for each pixel from depths and normals
 // (McGuire, Mara and Luebke, "Scalable Ambient Obscurance", 2012), and kept as long as the picture is the same.
-import {
-  type Camera,
-  CustomBlending,
-  DepthTexture,
-  Matrix4,
-  Mesh,
-  NearestFilter,
-  OneFactor,
-  OrthographicCamera,
-  Scene,
-  ShaderMaterial,
-  SrcColorFactor,
-  Vector2,
-  type WebGLRenderer,
-  WebGLRenderTarget,
-  ZeroFactor,
-} from "three";
+import { type Camera, DepthTexture, Matrix4, Mesh, MultiplyBlending, NearestFilter, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector2, type WebGLRenderer, WebGLRenderTarget } from "three";
 import type { HullSet } from "./hullSet";
-import { PLACE_VERTEX, placeUniforms } from "./hullShader";
-import { COVER_VERTEX, coveringTriangle, drawInto, runOver } from "./passes";
+import { PLACE_VERTEX } from "./hullShader";
+import { COVER_VERTEX, drawInto, fill } from "./passes";
 
 /** How far light is kept away, of half the diagonal of the asset. */
 const REACH = 0.16;
@@ -107,21 +91,21 @@ const BLUR_FRAGMENT = /* glsl */ `
   }
 `;
 
+const STRENGTH = 0.62;
+
 const COMPOSE_FRAGMENT = /* glsl */ `
   precision highp float;
   in vec2 spot;
   uniform sampler2D open;
-  uniform float strength;
   void main() {
-    gl_FragColor = vec4(vec3(mix(1.0, texture(open, spot).r, strength)), 1.0);
+    gl_FragColor = vec4(vec3(mix(1.0, texture(open, spot).r, ${STRENGTH})), 1.0);
   }
 `;
 
-const STRENGTH = 0.62;
-
-function pass(fragmentShader: string, names: readonly string[]): ShaderMaterial {
+function pass(fragmentShader: string, names: readonly string[], blends = false): ShaderMaterial {
   const uniforms = Object.fromEntries(names.map((name) => [name, { value: null as unknown }]));
-  return new ShaderMaterial({ vertexShader: COVER_VERTEX, fragmentShader, uniforms, depthTest: false, depthWrite: false });
+  const mixed = blends ? { blending: MultiplyBlending, premultipliedAlpha: true, transparent: true } : {};
+  return new ShaderMaterial({ vertexShader: COVER_VERTEX, fragmentShader, uniforms, depthTest: false, depthWrite: false, ...mixed });
 }
 
 const SHARED = ["depths", "normals", "back", "size", "reach"] as const;
@@ -146,25 +130,16 @@ interface Look {
 export class AmbientOcclusion {
   /** Darkens what is drawn so far. */
   readonly object: Mesh;
-  private readonly compose: ShaderMaterial;
+  private readonly compose = pass(COMPOSE_FRAGMENT, ["open"], true);
   private readonly hulls = new Scene();
-  private readonly mesh: Mesh;
   private targets: { seen: WebGLRenderTarget; raw: WebGLRenderTarget; soft: WebGLRenderTarget } | null = null;
   private drawn = "";
 
   constructor(private readonly set: HullSet) {
-    const fragmentShader = COMPOSE_FRAGMENT;
-    const uniforms = { open: { value: null }, strength: { value: STRENGTH } };
-    this.compose = new ShaderMaterial({ vertexShader: COVER_VERTEX, fragmentShader, uniforms, transparent: true, depthTest: false, depthWrite: false });
-    Object.assign(this.compose, { blending: CustomBlending, blendSrc: ZeroFactor, blendDst: SrcColorFactor, blendSrcAlpha: ZeroFactor, blendDstAlpha: OneFactor });
-    this.object = coveringTriangle(this.compose);
+    this.object = new Mesh(new PlaneGeometry(2, 2), this.compose);
+    this.object.frustumCulled = false;
     this.object.renderOrder = -1;
     this.object.visible = false;
-    const material = new ShaderMaterial({ vertexShader: NORMAL_VERTEX, fragmentShader: NORMAL_FRAGMENT, uniforms: placeUniforms(set.common) });
-    this.mesh = new Mesh(set.faceGeometry, material);
-    this.mesh.frustumCulled = false;
-    this.mesh.matrixAutoUpdate = false;
-    this.hulls.add(this.mesh);
   }
 
   /** Shows it where it is there for the picture, or may be reckoned now; not where it is of another picture. */
@@ -189,14 +164,14 @@ export class AmbientOcclusion {
 
   private draw(gl: WebGLRenderer, camera: Camera, { width, height, radius }: Look): void {
     const { seen, raw, soft } = this.targetsOf(Math.max(1, Math.round(width)), Math.max(1, Math.round(height)));
-    this.mesh.matrix.copy(this.set.object.matrixWorld);
-    drawInto(gl, seen, this.hulls, camera);
+    if (!this.hulls.children.length) this.hulls.add(this.set.facesWith(NORMAL_VERTEX, NORMAL_FRAGMENT));
+    drawInto(gl, seen, () => gl.render(this.hulls, camera));
     const back = new Matrix4().copy(camera.projectionMatrix).invert();
     const shared = { depths: seen.depthTexture, normals: seen.texture, back, size: new Vector2(seen.width, seen.height), reach: REACH * radius };
     put(occlude, { ...shared, scale: (camera.projectionMatrix.elements[5] ?? 1) / 2, parallel: camera instanceof OrthographicCamera });
-    runOver(gl, raw, occlude);
+    fill(gl, raw, occlude);
     put(blur, { ...shared, raw: raw.texture });
-    runOver(gl, soft, blur);
+    fill(gl, soft, blur);
     put(this.compose, { open: soft.texture });
   }
 

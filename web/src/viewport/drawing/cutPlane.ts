@@ -1,7 +1,11 @@
 // The cutting plane: a translucent square, the contour of the cut, and an arrow each way to slide it.
-import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
 import type { CutPlane as Plane } from "../../store/cut";
+import type { SectionPlane } from "../../store/section";
 import type { Shape } from "../../server/packet";
+import { cutPolygon } from "../geometry/section";
+import { mergeShapes } from "../geometry/triangles";
+import { frameCorners, sidesOf } from "./section";
 import type { ThemeColors } from "./themeColors";
 import { type Frame, linesBetween, Strokes } from "./strokes";
 
@@ -11,13 +15,7 @@ export class CutPlaneDrawing {
   private readonly lines: Strokes;
 
   constructor(ink: ThemeColors) {
-    const material = new MeshBasicMaterial({
-      color: ink.accent,
-      opacity: 0.2,
-      transparent: true,
-      side: DoubleSide,
-      depthWrite: false,
-    });
+    const material = new MeshBasicMaterial({ color: ink.accent, opacity: 0.2, transparent: true, side: DoubleSide, depthWrite: false });
     this.square = new Mesh(new BufferGeometry(), material);
     this.square.frustumCulled = false;
     this.square.renderOrder = 6;
@@ -31,16 +29,14 @@ export class CutPlaneDrawing {
     this.object.visible = plane !== null && shape !== null;
     if (!plane || !shape) return;
     this.object.position.set(away[0] ?? 0, away[1] ?? 0, away[2] ?? 0);
-    const [at, across] = [new Vector3(...plane.at), new Vector3(...plane.across)];
-    const corners = cornersAround(shape, at, across);
+    const at: SectionPlane = { normal: plane.across, at: plane.at.reduce((sum, value, k) => sum + value * (plane.across[k] ?? 0), 0) };
+    const merged = mergeShapes([shape]);
+    const corners = frameCorners(at, [...merged.boxes]);
     this.square.geometry.dispose();
-    this.square.geometry = new BufferGeometry();
-    this.square.geometry.setAttribute("position", new BufferAttribute(numbers(corners), 3));
+    this.square.geometry = new BufferGeometry().setFromPoints(corners.map((corner) => new Vector3(...corner)));
     this.square.geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    const rim = corners.map((corner, k): [Vector3, Vector3] => [corner, corners[(k + 1) % 4] ?? corner]);
-    const tip = across.clone().multiplyScalar(0.32 * plane.span);
-    const arrow: [Vector3, Vector3] = [at.clone().sub(tip), at.clone().add(tip)];
-    this.lines.set(linesBetween([...rim, arrow, ...contour(shape, at, across)].map(([a, b]) => [a.toArray(), b.toArray()])));
+    const tip = (by: number) => plane.at.map((value, k) => value + by * plane.span * (plane.across[k] ?? 0));
+    this.lines.set(linesBetween([...sidesOf(corners), [tip(-0.32), tip(0.32)], ...sidesOf(cutPolygon(merged, 0, at, [0, 0, 0]))]));
   }
 
   setInk(ink: ThemeColors): void {
@@ -58,42 +54,3 @@ export class CutPlaneDrawing {
     this.lines.dispose();
   }
 }
-
-/** The corners of a square in the plane that is larger than the shape's shadow on it. */
-function cornersAround(shape: Shape, at: Vector3, across: Vector3): Vector3[] {
-  const helper = Math.abs(across.z) < 0.9 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
-  const u = helper.cross(across).normalize();
-  const v = across.clone().cross(u);
-  const along = (axis: Vector3) => pointsOf(shape).map((p) => p.sub(at).dot(axis));
-  const [us, vs] = [along(u), along(v)].map((row) => [Math.min(...row), Math.max(...row)] as const);
-  const margin = 0.12 * Math.max((us?.[1] ?? 0) - (us?.[0] ?? 0), (vs?.[1] ?? 0) - (vs?.[0] ?? 0));
-  const corner = (a: number, b: number) =>
-    at
-      .clone()
-      .addScaledVector(u, (us?.[a] ?? 0) + (a ? margin : -margin))
-      .addScaledVector(v, (vs?.[b] ?? 0) + (b ? margin : -margin));
-  return [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-}
-
-/** Where the plane meets the triangles of the shape. */
-function contour(shape: Shape, at: Vector3, across: Vector3): [Vector3, Vector3][] {
-  const points = pointsOf(shape);
-  const heights = points.map((point) => point.clone().sub(at).dot(across));
-  const out: [Vector3, Vector3][] = [];
-  for (let k = 0; k < shape.index.length; k += 3) {
-    const corners = [shape.index[k] ?? 0, shape.index[k + 1] ?? 0, shape.index[k + 2] ?? 0];
-    const met = corners.flatMap((a, c) => {
-      const b = corners[(c + 1) % 3] ?? 0;
-      const [h, i, p, q] = [heights[a] ?? 0, heights[b] ?? 0, points[a], points[b]];
-      return h > 0 !== i > 0 && p && q ? [p.clone().lerp(q, h / (h - i))] : [];
-    });
-    if (met[0] && met[1]) out.push([met[0], met[1]]);
-  }
-  return out;
-}
-
-function pointsOf({ positions }: Shape): Vector3[] {
-  return Array.from({ length: positions.length / 3 }, (_, k) => new Vector3().fromArray(positions, 3 * k));
-}
-
-const numbers = (points: readonly Vector3[]): Float32Array => new Float32Array(points.flatMap((p) => p.toArray()));

@@ -1,20 +1,11 @@
 // A soft shadow on the ground below the asset: its hulls as seen from below, darker the lower they are, out of focus.
 // Drawn anew only where the hulls in sight change, never as the camera moves.
-import {
-  BufferAttribute,
-  BufferGeometry,
-  FrontSide,
-  Mesh,
-  OrthographicCamera,
-  Scene,
-  ShaderMaterial,
-  Vector2,
-  type WebGLRenderer,
-  WebGLRenderTarget,
-} from "three";
+import { Color, Mesh, MeshBasicMaterial, OrthographicCamera, PlaneGeometry, RepeatWrapping, Scene, ShaderMaterial, SRGBColorSpace, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { HorizontalBlurShader } from "three/addons/shaders/HorizontalBlurShader.js";
+import { VerticalBlurShader } from "three/addons/shaders/VerticalBlurShader.js";
 import type { HullSet } from "./hullSet";
-import { PLACE_VERTEX, placeUniforms } from "./hullShader";
-import { COVER_VERTEX, drawInto, runOver } from "./passes";
+import { PLACE_VERTEX } from "./hullShader";
+import { drawInto, fill } from "./passes";
 
 const PIXELS = 256;
 /** Room for what is out of focus, of the size of the asset. */
@@ -22,6 +13,7 @@ const RIM = 0.3;
 /** From one of the taps of the blur to the next, of the picture. */
 const STEPS = [0.006, 0.014];
 const DARKNESS = { light: 0.3, dark: 0.55 };
+const COLOR = new Color().setRGB(0.03, 0.035, 0.05, SRGBColorSpace);
 
 const BELOW_VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
@@ -38,69 +30,25 @@ const BELOW_FRAGMENT = /* glsl */ `
   }
 `;
 
-const BLUR_FRAGMENT = /* glsl */ `
-  precision highp float;
-  in vec2 spot;
-  uniform sampler2D from;
-  uniform vec2 apart;
-  void main() {
-    float sum = 0.0;
-    float all = 0.0;
-    for (int k = -4; k <= 4; k++) {
-      float weight = exp(-float(k * k) / 8.0);
-      sum += weight * texture(from, spot + float(k) * apart).r;
-      all += weight;
-    }
-    gl_FragColor = vec4(vec3(sum / all), 1.0);
-  }
-`;
+const across = new ShaderMaterial(HorizontalBlurShader);
+const along = new ShaderMaterial(VerticalBlurShader);
 
-const SHOW_VERTEX = /* glsl */ `
-  in vec2 spot;
-  out vec2 place;
-  void main() {
-    place = spot;
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+/** Blurs what is in one target into another. */
+function blur(gl: WebGLRenderer, from: WebGLRenderTarget, to: WebGLRenderTarget, material: ShaderMaterial, step: number): void {
+  for (const [name, value] of [["tDiffuse", from.texture], ["h", step], ["v", step]] as const) {
+    if (material.uniforms[name]) material.uniforms[name].value = value;
   }
-`;
-
-const SHOW_FRAGMENT = /* glsl */ `
-  precision highp float;
-  in vec2 place;
-  uniform sampler2D shadow;
-  uniform float darkness;
-  void main() {
-    gl_FragColor = vec4(0.03, 0.035, 0.05, darkness * texture(shadow, place).r);
-  }
-`;
-
-const blur = new ShaderMaterial({
-  vertexShader: COVER_VERTEX,
-  fragmentShader: BLUR_FRAGMENT,
-  uniforms: { from: { value: null }, apart: { value: new Vector2() } },
-  depthTest: false,
-  depthWrite: false,
-});
+  fill(gl, to, material);
+}
 
 export class GroundShadow {
-  readonly object: Mesh<BufferGeometry, ShaderMaterial>;
-  private readonly hulls = new Scene();
-  private readonly mesh: Mesh;
+  readonly object = new Mesh(new PlaneGeometry(2, 2), new MeshBasicMaterial({ color: COLOR, transparent: true, depthWrite: false }));
   private targets: readonly [WebGLRenderTarget, WebGLRenderTarget] | null = null;
   private drawn = "";
 
   constructor(private readonly set: HullSet) {
-    const uniforms = { shadow: { value: null }, darkness: { value: 0 } };
-    const material = new ShaderMaterial({ vertexShader: SHOW_VERTEX, fragmentShader: SHOW_FRAGMENT, uniforms, transparent: true, depthWrite: false, side: FrontSide });
-    this.object = new Mesh(new BufferGeometry(), material);
     this.object.renderOrder = -2;
-    this.object.frustumCulled = false;
     this.object.visible = false;
-    const below = new ShaderMaterial({ vertexShader: BELOW_VERTEX, fragmentShader: BELOW_FRAGMENT, uniforms: placeUniforms(set.common) });
-    this.mesh = new Mesh(set.faceGeometry, below);
-    this.mesh.frustumCulled = false;
-    this.mesh.matrixAutoUpdate = false;
-    this.hulls.add(this.mesh);
   }
 
   /** Shows it on the ground below a box; drawn anew where something changed and it may be now. */
@@ -110,8 +58,7 @@ export class GroundShadow {
       this.drawn = key;
       this.draw(gl, box);
     }
-    const { darkness } = this.object.material.uniforms;
-    if (darkness) darkness.value = dark ? DARKNESS.dark : DARKNESS.light;
+    this.object.material.opacity = dark ? DARKNESS.dark : DARKNESS.light;
     this.object.visible = this.drawn !== "";
   }
 
@@ -128,36 +75,32 @@ export class GroundShadow {
     const [x0, y0, z0, x1, y1, z1] = box as [number, number, number, number, number, number];
     const size = Math.max(x1 - x0, y1 - y0, z1 - z0, 1e-6);
     const [x, y, wide, deep] = [(x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) / 2 + RIM * size, (y1 - y0) / 2 + RIM * size];
-    // as seen from below, x goes to the left
     const camera = new OrthographicCamera(-wide, wide, deep, -deep, 0, Math.max(z1 - z0, 1e-6) * 1.05);
     camera.position.set(x, y, z0 - 1e-4 * size);
     camera.up.set(0, 1, 0);
     camera.lookAt(x, y, z0 + size);
     camera.updateMatrixWorld();
-    const target = (): WebGLRenderTarget => new WebGLRenderTarget(PIXELS, PIXELS);
-    const [first, second] = (this.targets ??= [target(), target()]);
-    this.mesh.matrix.copy(this.set.object.matrixWorld);
-    drawInto(gl, first, this.hulls, camera);
-    const { from, apart } = blur.uniforms as { from: { value: unknown }; apart: { value: Vector2 } };
+    const [first, second] = (this.targets ??= this.begin());
+    const hulls = this.set.facesWith(BELOW_VERTEX, BELOW_FRAGMENT);
+    drawInto(gl, first, () => gl.render(new Scene().add(hulls), camera));
+    const long = Math.max(wide, deep);
     for (const reach of STEPS) {
-      const [across, along] = wide > deep ? [reach * (deep / wide), reach] : [reach, reach * (wide / deep)];
-      from.value = first.texture;
-      apart.value.set(across, 0);
-      runOver(gl, second, blur);
-      from.value = second.texture;
-      apart.value.set(0, along);
-      runOver(gl, first, blur);
+      blur(gl, first, second, across, (reach * deep) / long);
+      blur(gl, second, first, along, (reach * wide) / long);
     }
-    this.place([x, y, z0 - 6e-4 * size], wide, deep);
-    const { shadow } = this.object.material.uniforms;
-    if (shadow) shadow.value = first.texture;
+    this.object.position.set(x, y, z0 - 6e-4 * size);
+    this.object.scale.set(wide, deep, 1);
+    this.object.updateMatrixWorld();
   }
 
-  private place([x, y, z]: readonly [number, number, number], wide: number, deep: number): void {
-    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]] as const;
-    const { geometry } = this.object;
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flatMap(([a, b]) => [x + a * wide, y + b * deep, z])), 3));
-    geometry.setAttribute("spot", new BufferAttribute(new Float32Array(corners.flatMap(([a, b]) => [(1 - a) / 2, (1 + b) / 2])), 2));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  private begin(): [WebGLRenderTarget, WebGLRenderTarget] {
+    const targets: [WebGLRenderTarget, WebGLRenderTarget] = [new WebGLRenderTarget(PIXELS, PIXELS), new WebGLRenderTarget(PIXELS, PIXELS)];
+    // as seen from below, x goes to the left
+    const [{ texture }] = targets;
+    texture.wrapS = RepeatWrapping;
+    texture.repeat.x = -1;
+    this.object.material.alphaMap = texture;
+    this.object.material.needsUpdate = true;
+    return targets;
   }
 }

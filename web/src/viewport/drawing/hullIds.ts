@@ -1,7 +1,7 @@
 // A picture of which hull is seen in each pixel, drawn when a region is begun.
-import { type BufferGeometry, type Camera, DoubleSide, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { type BufferGeometry, type Camera, DoubleSide, type Mesh, Scene, type ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
 import type { HullSet } from "./hullSet";
-import { PLACE_VERTEX, placeUniforms, SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
+import { PLACE_VERTEX, SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
 import { drawInto } from "./passes";
 
 const VERTEX = /* glsl */ `
@@ -36,29 +36,15 @@ export function drawHullIds(
   width: number,
   height: number,
 ): Uint32Array {
-  const shaders = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: placeUniforms(hulls.common) };
-  const scene = new Scene();
-  const add = (geometry: BufferGeometry, material: ShaderMaterial): void => {
-    const mesh = new Mesh(geometry, material);
-    mesh.frustumCulled = false;
-    mesh.matrixAutoUpdate = false;
-    mesh.matrix.copy(hulls.object.matrixWorld);
-    scene.add(mesh);
-  };
-  add(hulls.faceGeometry, new ShaderMaterial({ ...shaders, clipping: true }));
-  if (closed) add(closed, new ShaderMaterial({ ...shaders, side: DoubleSide }));
-  const bytes = renderIds(gl, scene, camera, width, height);
-  for (const mesh of scene.children as Mesh<BufferGeometry, ShaderMaterial>[]) mesh.material.dispose();
-  return flipRows(bytes, width, height);
-}
-
-function renderIds(gl: WebGLRenderer, scene: Scene, camera: Camera, width: number, height: number): Uint8Array {
+  const scene = new Scene().add(hulls.facesWith(VERTEX, FRAGMENT, hulls.faceGeometry, { clipping: true }));
+  if (closed) scene.add(hulls.facesWith(VERTEX, FRAGMENT, closed, { side: DoubleSide }));
   const target = new WebGLRenderTarget(width, height);
-  drawInto(gl, target, scene, camera);
+  drawInto(gl, target, () => gl.render(scene, camera));
   const bytes = new Uint8Array(4 * width * height);
   gl.readRenderTargetPixels(target, 0, 0, width, height, bytes);
   target.dispose();
-  return bytes;
+  for (const mesh of scene.children as Mesh<BufferGeometry, ShaderMaterial>[]) mesh.material.dispose();
+  return flipRows(bytes, width, height);
 }
 
 function flipRows(bytes: Uint8Array, width: number, height: number): Uint32Array {

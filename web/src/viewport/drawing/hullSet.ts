@@ -1,10 +1,10 @@
 // All hulls of a scene as three.js objects: one mesh, its edges, and tables of colours and states.
-import { BufferAttribute, BufferGeometry, type Color, Group, LineSegments, Mesh } from "three";
+import { BufferAttribute, BufferGeometry, type Color, Group, LineSegments, Mesh, ShaderMaterial, type ShaderMaterialParameters } from "three";
 import { EDGE, type Edges, edgesOf, type Outline } from "../geometry/edges";
 import { type Facets, facetsOf, type MergedShapes, mergeShapes, middleOf, type Point } from "../geometry/triangles";
 import type { Fill } from "../../pictures/hullColors";
 import type { Shape } from "../../server/packet";
-import { ByteTable, FILL_BYTES, hullMaterial, lineMaterial, type SharedUniforms, shareUniforms } from "./hullShader";
+import { ByteTable, FILL_BYTES, hullMaterial, lineMaterial, placeUniforms, type SharedUniforms, shareUniforms } from "./hullShader";
 import type { ThemeColors } from "./themeColors";
 
 /** How one hull looks. role: one of ROLE; selected, hover: 0 to 1. */
@@ -60,6 +60,15 @@ export class HullSet {
       this.object.add(one);
     }
     this.setWireframe(false, false);
+  }
+
+  /** The faces where they are, as other shaders draw them; these have PLACE_VERTEX. */
+  facesWith(vertexShader: string, fragmentShader: string, geometry = this.faceGeometry, more: ShaderMaterialParameters = {}): Mesh {
+    const out = new Mesh(geometry, new ShaderMaterial({ vertexShader, fragmentShader, uniforms: placeUniforms(this.common), ...more }));
+    out.frustumCulled = false;
+    out.matrixAutoUpdate = false;
+    out.matrix.copy(this.object.matrixWorld);
+    return out;
   }
 
   paint(look: (k: number) => HullLook): void {

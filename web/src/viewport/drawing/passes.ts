@@ -1,26 +1,27 @@
-// Drawing into a texture that later drawing reads: of a scene, or of each pixel anew.
-import { BufferAttribute, BufferGeometry, Camera, Color, Mesh, Scene, type ShaderMaterial, type WebGLRenderer, type WebGLRenderTarget } from "three";
+// Drawing into a texture that later drawing reads.
+import { Color, type ShaderMaterial, type WebGLRenderer, type WebGLRenderTarget } from "three";
+import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
 
-/** Draws a scene into a target that is cleared before; the picture's own settings stay. */
-export function drawInto(gl: WebGLRenderer, target: WebGLRenderTarget, scene: Scene, camera: Camera): void {
+/** Draws into a target that is cleared before; the picture's own settings stay. */
+export function drawInto(gl: WebGLRenderer, target: WebGLRenderTarget, draw: () => void): void {
   const [color, alpha] = [gl.getClearColor(new Color()), gl.getClearAlpha()];
   gl.setRenderTarget(target);
   gl.setClearColor(0, 0);
   gl.clear();
-  gl.render(scene, camera);
+  draw();
   gl.setRenderTarget(null);
   gl.setClearColor(color, alpha);
 }
 
-/** A triangle that covers all of a picture; `uv` goes from 0 to 1 over it. */
-export function coveringTriangle(material: ShaderMaterial): Mesh {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-  const out = new Mesh(geometry, material);
-  out.frustumCulled = false;
-  return out;
+const quad = new FullScreenQuad();
+
+/** Runs a material over each pixel of a target. */
+export function fill(gl: WebGLRenderer, target: WebGLRenderTarget, material: ShaderMaterial): void {
+  quad.material = material;
+  drawInto(gl, target, () => quad.render(gl));
 }
 
+/** For a material that covers all of what is drawn; `spot` goes from 0 to 1 over it. */
 export const COVER_VERTEX = /* glsl */ `
   out vec2 spot;
   void main() {
@@ -28,13 +29,3 @@ export const COVER_VERTEX = /* glsl */ `
     gl_Position = vec4(position.xy, 0.0, 1.0);
   }
 `;
-
-const nowhere = new Camera();
-const passes = new WeakMap<ShaderMaterial, Scene>();
-
-/** Runs a material that has COVER_VERTEX over each pixel of a target. */
-export function runOver(gl: WebGLRenderer, target: WebGLRenderTarget, material: ShaderMaterial): void {
-  let scene = passes.get(material);
-  if (!scene) passes.set(material, (scene = new Scene().add(coveringTriangle(material))));
-  drawInto(gl, target, scene, nowhere);
-}

@@ -87,7 +87,8 @@ export class SectionFaces {
   }
 }
 
-const sidesOf = (corners: readonly Point[]): Segment[] =>
+/** The sides of a polygon. */
+export const sidesOf = (corners: readonly Point[]): Segment[] =>
   corners.map((corner, k): Segment => [corner, corners[(k + 1) % corners.length] ?? corner]);
 
 /** Of hulls that overlap, the later one lies above by so much of the whole extent. */

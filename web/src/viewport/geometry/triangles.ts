@@ -1,6 +1,5 @@
 // The triangles of many shapes in one buffer, with flat faces of few vertices, and the boxes around shapes.
-import { Matrix4, Vector3 } from "three";
-import { cornersOf } from "../camera/pose";
+import { Box3, Matrix4, Triangle } from "three";
 import type { Shape } from "../../server/packet";
 import { layersOf } from "./layers";
 
@@ -46,16 +45,9 @@ export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
 }
 
 /** The lowest and the highest corner of some points. */
-export function boxOf(positions: Float32Array): readonly number[] {
-  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-  for (let k = 0; k < positions.length; k++) {
-    const at = positions[k] ?? 0;
-    const axis = k % 3;
-    if (at < (box[axis] ?? 0)) box[axis] = at;
-    if (at > (box[axis + 3] ?? 0)) box[axis + 3] = at;
-  }
-  return box;
-}
+export const boxOf = (positions: Float32Array): number[] => cornersOf(new Box3().setFromArray(positions));
+
+const cornersOf = ({ min, max }: Box3): number[] => [...min, ...max];
 
 export type Point = readonly [number, number, number];
 
@@ -110,11 +102,17 @@ export function matrixOf(rows: readonly number[] | null): Matrix4 {
 }
 
 /** The box around a box after turning it. */
-export function rotateBox(box: readonly number[], upright: readonly number[] | null): number[] {
-  const matrix = matrixOf(upright);
-  const corners = cornersOf(box).map((corner) => new Vector3(...corner).applyMatrix4(matrix).toArray());
-  const along = (axis: number) => corners.map((corner) => corner[axis] ?? 0);
-  return [0, 1, 2].map((axis) => Math.min(...along(axis))).concat([0, 1, 2].map((axis) => Math.max(...along(axis))));
+export const rotateBox = (box: readonly number[], upright: readonly number[] | null): number[] =>
+  cornersOf(new Box3().setFromArray(box).applyMatrix4(matrixOf(upright)));
+
+const one = new Triangle();
+
+/** A triangle by its number, until the next one is asked for. */
+export function triangleAt(positions: Float32Array, index: Uint32Array, face: number): Triangle {
+  one.a.fromArray(positions, 3 * (index[3 * face] ?? 0));
+  one.b.fromArray(positions, 3 * (index[3 * face + 1] ?? 0));
+  one.c.fromArray(positions, 3 * (index[3 * face + 2] ?? 0));
+  return one;
 }
 
 /** The normal of each triangle. */
