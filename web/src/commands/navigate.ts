@@ -85,6 +85,16 @@ export const goCommands = commandsOf("Go", [
     run: redo,
   },
   {
+    id: "history",
+    title: "History: jump to an earlier or a later state",
+    group: "Edit",
+    keys: ["Alt+Z"],
+    words: "undo list",
+    enabled: needs("Nothing was done yet.", () => useProject.getState().history.undoable + useProject.getState().history.redoable > 0),
+    run: () => toggleOverlay("history"),
+    movesFocus: true,
+  },
+  {
     id: "save",
     title: "Save: all is on disk already",
     group: "Edit",

@@ -121,7 +121,7 @@ export interface WorkspaceState {
   unit: LengthUnit;
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
-  overlay: "none" | "help" | "palette";
+  overlay: "none" | "help" | "palette" | "history";
   /** Counts up when the camera is asked to move: to a standard view, to fit all, to frame the selection, or to look at it from
    * where the rest of the asset is seen, too. */
   cameraOrder: { count: number; to: StandardView | "fit" | "frame" | "near" };
