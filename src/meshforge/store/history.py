@@ -50,8 +50,8 @@ class HistoryState:
 
 @dataclass(frozen=True, slots=True)
 class HistoryAct:
-    """What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it has;
-    done: how many changes of the project are done after it."""
+    """What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it
+    has; done: how many changes of the project are done after it."""
 
     title: str
     at: str

@@ -32,7 +32,7 @@ const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit
 const canWalk = inStage("label", needs("There are no assets yet.", () => useProject.getState().order.length > 0));
 
 /** Labels all hulls, or says why not, as soon as what was painted before is saved. */
-async function tryLabel(): Promise<unknown> {
+export async function tryLabel(): Promise<unknown> {
   await saveEdits();
   const why = whyNotLabel();
   return why === null ? labelAll() : notify(why);

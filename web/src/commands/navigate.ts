@@ -3,6 +3,8 @@ import { redo, undo } from "../store/edits";
 import { callFor } from "../store/calls";
 import { matchesFilter, neighbour } from "../store/family";
 import { listBare, makeHulls, saveEdits, whyNotDecompose } from "../store/jobs";
+import { walk } from "../store/labelWalk";
+import { jobOfNext } from "../store/nextStep";
 import { useProject } from "../store/project";
 import { openBeside } from "../store/sheet";
 import { notify } from "../store/toasts";
@@ -18,6 +20,7 @@ import {
   STAGE_OF,
 } from "../store/workspace";
 import { type Command, commandsOf, NAMES, needs, unless } from "./command";
+import { tryLabel } from "./label";
 
 /** The next asset that wants to be looked at: wrong, flagged, failed, or with labels that are not sure. */
 function nextDoubtful(): string | null {
@@ -43,10 +46,26 @@ const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
 
 const hasOthers = needs("There is just one asset.", () => useProject.getState().order.length > 1);
 
-export function goToNext(): void {
+/** Goes where the next step is done, and does it where one command does; what writes files waits at its button for Enter. */
+export function goToNext(): unknown {
   const { next } = useProject.getState().project;
   openStage(STAGE_OF[next.kind]);
   if (next.asset !== null) openAsset(next.asset);
+  if (jobOfNext(useProject.getState())) return;
+  switch (next.kind) {
+    case "decompose":
+      return whyNotDecompose() ?? makeHulls(listBare(useProject.getState().cards));
+    case "label-all":
+      return tryLabel();
+    case "check-labels":
+      return walk();
+    case "answer":
+    case "review":
+      return callFor("card");
+    case "apply":
+    case "export":
+      return callFor(next.kind);
+  }
 }
 
 export const goCommands = commandsOf("Go", [
@@ -66,7 +85,7 @@ export const goCommands = commandsOf("Go", [
     run: () => openAsset(nextDoubtful()),
   },
   ...stageCommands,
-  { id: "go-on", title: "Go to the next step", keys: ["Alt+Enter"], run: goToNext },
+  { id: "go-on", title: "Go to the next step", keys: ["Alt+Enter"], words: "what is next", run: goToNext, movesFocus: true },
   {
     id: "undo",
     title: "Undo",

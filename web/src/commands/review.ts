@@ -80,12 +80,6 @@ export function startCorrection(asset: string): void {
 
 export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-manual-edits", asset });
 
-/** Opens the stage with the export, and puts the focus on its button. */
-export function goToExport(): void {
-  openStage("review");
-  callFor("export");
-}
-
 const queue = (): readonly string[] => reviewQueue(cardsInOrder());
 
 function nextOf(asset: string | null): string | null {
@@ -169,7 +163,10 @@ export const reviewCommands = commandsOf("Review", [
     title: "Export results into a folder",
     words: "save output download",
     enabled: needs("Nothing is written yet: apply the program.", () => cardsInOrder().some(isWritten)),
-    run: goToExport,
+    run: () => {
+      openStage("review");
+      callFor("export");
+    },
     movesFocus: true,
   },
 ]);
