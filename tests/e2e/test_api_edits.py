@@ -120,6 +120,26 @@ def test_an_edit_that_takes_another_back_is_undone_as_well(studio: Studio, kind:
     assert kept(studio) == begin
 
 
+def test_twenty_acts_are_undone_at_once_and_redone_to_the_byte(studio: Studio) -> None:
+    studio.undo_all()
+    states = [kept(studio)]
+    for k in range(20):
+        studio.edit("vocabulary", labels=["panel", "leg", "handle", "drawer", "misc", f"knob {k}"])
+    states.append(kept(studio))
+    acts = ok(studio.get("/api/history"))["acts"]
+    assert [act["done"] for act in acts] == list(range(1, 21))
+    with studio.page() as page:
+        assert page.hello
+        for way, to, state in (("undo", 0, 0), ("redo", 20, 1), ("undo", 7, None), ("redo", 20, 1)):
+            assert not ok(studio.post(f"/api/{way}", {"to": to}))["nothing"]
+            told = page.kind("history")
+            assert told["history"]["undoable"] == to, "it is one act for the pages"
+            if state is not None:
+                assert kept(studio) == states[state]
+            assert ok(studio.get("/api/history"))["acts"] == acts, "what was undone keeps its place"
+    studio.undo_all()
+
+
 def test_nothing_to_undo_is_no_error(studio: Studio) -> None:
     assert ok(studio.post("/api/undo")) == {"message": "there is nothing to undo", "nothing": True}
 

@@ -82,8 +82,10 @@ export interface Everything {
   GoalView: GoalView;
   Guess: Guess;
   Hello: Hello;
+  HistoryAct: HistoryAct;
   HistoryChanged: HistoryChanged;
   HistoryState: HistoryState;
+  HistoryView: HistoryView;
   HullLabel: HullLabel;
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
@@ -1244,6 +1246,22 @@ export interface Guess {
   select: string[];
   sentence: string;
   error: string | null;
+}
+/**
+ * What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it has;
+ * done: how many changes of the project are done after it.
+ */
+export interface HistoryAct {
+  title: string;
+  at: string;
+  changes: number;
+  done: number;
+}
+/**
+ * What was done last and can be undone, and what was undone and can be redone, the first one first.
+ */
+export interface HistoryView {
+  acts: HistoryAct[];
 }
 /**
  * A hull of an asset, both by name.

@@ -17,10 +17,12 @@ def choose_next_step(state: FamilyState) -> NextStep:
     return (
         _decompose(state)
         or (None if state.is_begun else _begin(state))
+        or _wait_for_learning(state)
         or _explain_last_run(state)
         or _fix_program(state)
         or _learn(state)
         or _label_new_assets(state)
+        or _continue_demonstration(state)
         or _answer(state)
         or _apply(state)
         or _review(state)
@@ -147,6 +149,28 @@ def _demonstrate(state: FamilyState) -> NextStep:
     return _step(
         state, "demonstrate", text, f"demonstrate {quote_path(Path(example))} 'HULLS => ACTION' ...", example, note
     )
+
+
+def _wait_for_learning(state: FamilyState) -> NextStep | None:
+    """While it is not known what is next, the step that is shown stays, unless it rests on what is worked out anew."""
+    if state.is_judged or state.problem:
+        return None
+    if state.has_program and state.shown and state.shown.kind in ("answer", "review", "demonstrate"):
+        return state.shown
+    return _step(state, "learn", "The program is being learned.")
+
+
+def _continue_demonstration(state: FamilyState) -> NextStep | None:
+    """Where just one asset is demonstrated and nothing else was done yet, more steps may come."""
+    example, *more = [asset for asset in state.assets if asset.demonstrated] or [None]
+    open_assets = [
+        asset for asset in state.assets if asset.hulls and asset.result_status.state in ("unknown", "needs review")
+    ]
+    others = [asset.id for asset in open_assets if asset is not example]
+    if state.has_replies or not example or more or not others or any(asset.output != "none" for asset in state.assets):
+        return None
+    text = f"Show the next step on {example.id}, or see what the program does on {others[0]}."
+    return _step(state, "demonstrate", text, asset=others[0])
 
 
 def _explain_last_run(state: FamilyState) -> NextStep | None:

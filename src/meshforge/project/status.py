@@ -192,6 +192,8 @@ class FamilyState:
     has_program, asks_labels: whether there is one, and it selects by labels; outdated: whether it was learned from
     other labels, demonstrations, replies or settings than there are now; problem: why it cannot be applied;
     suggest_first: which of some assets, by id, is to be demonstrated first; find_offers: labels in files and names.
+    is_judged: whether nothing is being learned, and it is known how sure the results are; shown: the step that a page
+    shows; has_replies: whether people said anything of results or questions, as all do who use commands.
     """
 
     folder: Path
@@ -204,6 +206,9 @@ class FamilyState:
     question: OpenQuestion | None = None
     last_run: LastRun | None = None
     propagation: PropagationState | None = None
+    is_judged: bool = True
+    shown: NextStep | None = None
+    has_replies: bool = True
     suggest_first: Callable[[Sequence[str]], str | None] = field(default=lambda assets: None)
     find_offers: Callable[[], labels.LabelOffers] = field(default=lambda: labels.LabelOffers())
 

@@ -49,6 +49,17 @@ class HistoryState:
 
 
 @dataclass(frozen=True, slots=True)
+class HistoryAct:
+    """What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it
+    has; done: how many changes of the project are done after it."""
+
+    title: str
+    at: str
+    changes: int
+    done: int
+
+
+@dataclass(frozen=True, slots=True)
 class FileConflict:
     """A file that is not as a change left it. by: the title of the later entry that changed it, where one did."""
 
@@ -109,6 +120,18 @@ class History:
         """The changes that were made and not undone, the first one first."""
         with self._mutex:
             return tuple(self._files.entries[: self._files.position])
+
+    def list_acts(self, most: int) -> tuple[HistoryAct, ...]:
+        """Return the acts around the present state, those undone too, the first one first: so many on each side."""
+        with self._mutex:
+            entries, at, acts = self._files.entries, self._files.position, list[HistoryAct]()
+            done = 0
+            while done < len(entries):
+                changes = count_group(entries, done, 1)
+                done += changes
+                acts.append(HistoryAct(entries[done - 1].title, entries[done - 1].at, changes, done))
+        here = sum(act.done <= at for act in acts)
+        return tuple(acts[max(0, here - most) : here + most])
 
     @property
     def interrupted(self) -> tuple[str, ...]:

@@ -118,6 +118,32 @@ def test_hulls_without_a_label_are_labelled_before_anything_is_demonstrated() ->
     assert choose(BEGUN).text == "1 of 2 hulls has no label: label those of a."
 
 
+def test_the_sentence_stays_while_it_is_being_learned_what_is_next_and_nothing_is_applied_meanwhile() -> None:
+    asked = choose(*rows(0.1, 0.4), question=OpenQuestion("other", "b"), **FOUND)
+    busy = {"is_judged": False, **FOUND}
+    assert choose(SHOWN, **busy).text == "The program is being learned."
+    assert choose(*rows(0.1, 0.4), shown=asked, **busy) == asked
+    for stale in (choose(SHOWN, **FOUND), choose(*rows(0.99, 0.98), **FOUND)):
+        assert (stale.kind, choose(SHOWN, shown=stale, **busy).kind) in (("apply", "learn"), ("export", "learn"))
+    assert choose(SHOWN, problem="no template", shown=asked, **busy).kind == "fix-program"
+
+
+def test_after_the_first_rule_the_demonstration_goes_on_until_something_else_is_done() -> None:
+    b, c = replace(LABELLED, id="b"), replace(LABELLED, id="c")
+    asked = OpenQuestion("other", "b")
+    more = {"has_replies": False, "question": asked, **FOUND}
+    step = choose(SHOWN, b, c, **more)
+    assert step.text == "Show the next step on a, or see what the program does on b."
+    assert (step.kind, step.asset) == ("demonstrate", "b")
+    assert choose(SHOWN, b, c, **more | {"has_replies": True}).kind == "answer"
+    assert choose(SHOWN, replace(b, demonstrated=True), c, **more).kind == "answer"
+    assert choose(DONE, b, **more).kind == "answer", "the program was applied"
+    sure = ResultStatus(0.99, state="sure")
+    assert choose(SHOWN, replace(b, result_status=sure), **more | {"question": None}).kind == "apply", (
+        "all others are sure"
+    )
+
+
 def test_unsure_labels_are_checked_unless_something_else_is_less_work() -> None:
     whole, doubtful = asset("w"), asset("d", "muuum")
     step = choose(whole, doubtful)

@@ -50,6 +50,20 @@ def test_undo_and_redo_walk_through_the_very_states_that_were(moves: Sequence[Wr
             assert (history.state.undoable, history.state.redoable) == (at, len(states) - 1 - at)
 
 
+def test_the_acts_around_the_present_state_are_those_that_undo_takes_at_once(tmp_path: Path) -> None:
+    project = bare(tmp_path)
+    history = History.open(project.folder)
+    for k, group in enumerate(["a", None, "g", "g", "g", None]):
+        with history.record(f"act {k}", {}, [tmp_path / "data" / "x"], group=group):
+            (tmp_path / "data").mkdir(exist_ok=True)
+            (tmp_path / "data" / "x").write_text(str(k))
+    assert [(act.title, act.changes, act.done) for act in history.list_acts(9)] == [
+        ("act 0", 1, 1), ("act 1", 1, 2), ("act 4", 3, 5), ("act 5", 1, 6)]  # fmt: skip
+    history.undo()
+    history.undo()
+    assert [act.title for act in history.list_acts(1)] == ["act 1", "act 4"]
+
+
 def test_a_failed_edit_leaves_nothing_behind(tmp_path: Path) -> None:
     project = bare(tmp_path)
     history = History.open(project.folder)

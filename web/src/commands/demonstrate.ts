@@ -6,15 +6,17 @@ import { useScenes } from "../store/scenes";
 import { openRules, removeStep } from "../store/steps";
 import { reportError } from "../store/toasts";
 import { setTool, show, useWorkspace } from "../store/workspace";
-import { type Command, commandsOf } from "./command";
+import { type Command, commandsOf, inStage, needs } from "./command";
 
-const isHere = (): boolean => useWorkspace.getState().stage === "demonstrate" && useWorkspace.getState().asset !== null;
+const hasAsset = needs("No asset is open.", () => useWorkspace.getState().asset !== null);
+const isHere = inStage("demonstrate", hasAsset);
+const hasDraft = needs("No action is begun.", () => useWorkspace.getState().draft !== null);
 
 /** Whether actions can be begun: while demonstrating, and on the result that is reviewed. */
-function canDraft(): boolean {
+const canDraft = needs("Open Demonstrate first (Alt+2), or a result in Review.", () => {
   const { asset, stage, showing } = useWorkspace.getState();
   return asset !== null && (stage === "demonstrate" || (stage === "review" && showing.kind === "result"));
-}
+});
 
 /** Commands that begin the actions, each by its own key. */
 export function listActionCommands(): readonly Command[] {
@@ -61,40 +63,42 @@ export const demonstrateCommands = commandsOf("Demonstrate", [
     id: "draft-each",
     title: "Each connected part separately",
     keys: ["E"],
-    enabled: () => useWorkspace.getState().draft !== null,
+    enabled: hasDraft,
     run: toggleEach,
   },
   {
     id: "draft-accept",
     title: "Add the step, or accept the guess",
     keys: ["Enter"],
-    enabled: () => useWorkspace.getState().draft !== null || (isHere() && offeredRule() !== null),
+    enabled: needs("No action is begun, and no step is guessed.", () => hasDraft() || (isHere() && offeredRule() !== null)),
     run: acceptStep,
   },
   {
     id: "draft-drop",
     title: "Cancel the action",
     keys: ["Escape"],
-    enabled: () => useWorkspace.getState().draft !== null,
+    enabled: hasDraft,
     run: () => dropDraft().catch(reportError),
   },
   {
     id: "step-delete",
     title: "Remove the shown step",
     keys: ["Backspace", "Delete"],
-    enabled: () => isHere() && useWorkspace.getState().draft === null && shownStep() !== null,
+    enabled: inStage("demonstrate", needs("No step is shown.", () => !hasDraft() && shownStep() !== null)),
     run: removeShownStep,
   },
   {
     id: "cut",
     title: "Split the selected hull by a plane",
     keys: ["K"],
-    enabled: () => isHere() && selectedHulls().length === 1,
+    words: "cut plane knife divide",
+    enabled: inStage("demonstrate", needs("Select one hull first.", () => selectedHulls().length === 1)),
     run: startCut,
   },
   {
     id: "landmark",
     title: "Click the landmarks of the orientation",
+    words: "orient up axis turn upright",
     enabled: isHere,
     run: startLandmarks,
   },

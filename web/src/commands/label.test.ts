@@ -5,7 +5,7 @@ import { emptyProject, useProject } from "../store/project";
 import { sampleCard } from "../store/sample.test-help";
 import { useScenes } from "../store/scenes";
 import { useToasts } from "../store/toasts";
-import { initialWorkspace, select, useWorkspace } from "../store/workspace";
+import { initialWorkspace, select, setBrush, useWorkspace } from "../store/workspace";
 import type { AnyEdit } from "../wire";
 import { labelCommands } from "./label";
 import { commandFor } from "./list";
@@ -35,6 +35,17 @@ describe("a digit", () => {
     select(["y"]);
     press("2");
     await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", hulls: { a: ["y"] }, label: "top" }]));
+  });
+
+  it("labels or paints, never both: painting begins with nothing selected, and a selection ends it", () => {
+    press("1");
+    expect(useWorkspace.getState().brush).toBe("leg");
+    select(["y"]);
+    expect(useWorkspace.getState().brush).toBeNull();
+    press("1");
+    expect([useWorkspace.getState().brush, useWorkspace.getState().selection.size]).toEqual([null, 1]);
+    setBrush("top");
+    expect([useWorkspace.getState().brush, useWorkspace.getState().selection.size]).toEqual(["top", 0]);
   });
 
   it("arms the brush where nothing is selected, and disarms it the second time", () => {

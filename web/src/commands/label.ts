@@ -4,8 +4,9 @@ import { applyLabel, confirmLabels, placeInWalk, walk } from "../store/labelWalk
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { notify } from "../store/toasts";
-import { setBrush, useWorkspace } from "../store/workspace";
-import { type Command, commandsOf } from "./command";
+import { openStage, setBrush, useWorkspace } from "../store/workspace";
+import { callFor } from "../store/calls";
+import { type Command, commandsOf, inStage, needs } from "./command";
 
 const isLabelling = (): boolean => useWorkspace.getState().stage === "label";
 const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
@@ -21,14 +22,17 @@ const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit
   title: `Label ${digit}: label the selection, or paint`,
   group: "Label",
   keys: [String(digit)],
-  enabled: () => labelAt(digit - 1) !== undefined && (isLabelling() || !SIDE_DIGITS.includes(digit)),
+  enabled: needs(
+    () => (labelAt(digit - 1) === undefined ? `There is no label ${digit}.` : "Open Label first (Alt+1)."),
+    () => labelAt(digit - 1) !== undefined && (isLabelling() || !SIDE_DIGITS.includes(digit)),
+  ),
   run: () => (isLabelling() ? applyLabel(labelAt(digit - 1) ?? null) : sayWhere(String(digit), `gives the label ${labelAt(digit - 1)}`)),
 }));
 
-const canWalk = (): boolean => isLabelling() && useProject.getState().order.length > 0;
+const canWalk = inStage("label", needs("There are no assets yet.", () => useProject.getState().order.length > 0));
 
 /** Labels all hulls, or says why not, as soon as what was painted before is saved. */
-async function tryLabel(): Promise<unknown> {
+export async function tryLabel(): Promise<unknown> {
   await saveEdits();
   const why = whyNotLabel();
   return why === null ? labelAll() : notify(why);
@@ -55,7 +59,8 @@ export const labelCommands = commandsOf("Label", [
     id: "label-right",
     title: "Confirm the labels of the selection; next hull",
     keys: ["Enter"],
-    enabled: () => isLabelling() && isDoubtful(),
+    words: "confirm accept right",
+    enabled: inStage("label", needs("Select a hull with a guessed label.", isDoubtful)),
     run: confirmLabels,
   },
   {
@@ -75,14 +80,25 @@ export const labelCommands = commandsOf("Label", [
   {
     id: "label-all",
     title: "Label all hulls from files, names and labels",
+    words: "propagate guess",
     keys: ["P"],
     run: () => (isLabelling() ? tryLabel() : sayWhere("P", "labels all hulls")),
+  },
+  {
+    id: "vocabulary",
+    title: "Add, rename or remove labels",
+    words: "vocabulary names list",
+    run: () => {
+      openStage("label");
+      callFor("vocabulary");
+    },
+    movesFocus: true,
   },
   {
     id: "label-brush-down",
     title: "Stop painting",
     keys: ["Escape"],
-    enabled: () => useWorkspace.getState().brush !== null,
+    enabled: needs("Nothing is painted.", () => useWorkspace.getState().brush !== null),
     run: () => setBrush(null),
   },
 ]);

@@ -6,7 +6,7 @@ import { findSeparatingAssets } from "../store/readings";
 import { reportError } from "../store/toasts";
 import { openAsset, openStage, setHighlight, visit } from "../store/workspace";
 import type { NearestView, CandidateView } from "../wire";
-import { commandsOf } from "./command";
+import { commandsOf, needs } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
 export const learnNow = (): Promise<unknown> => api.learn().catch(reportError);
@@ -50,13 +50,17 @@ export const learnCommands = commandsOf("Learn", [
     id: "learn",
     title: "Learn the program",
     keys: ["Ctrl+Enter"],
-    enabled: () => !project().learning && project().project.rules.length > 0,
+    words: "synthesize run",
+    enabled: needs(
+      () => (project().learning ? "The program is being learned." : "Nothing is demonstrated yet."),
+      () => !project().learning && project().project.rules.length > 0,
+    ),
     run: () => void learnNow(),
   },
   {
     id: "learn-stop",
     title: "Stop learning",
-    enabled: () => project().learning,
+    enabled: needs("Nothing is being learned.", () => project().learning),
     run: () => void stopLearning(),
   },
 ]);

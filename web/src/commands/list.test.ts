@@ -1,7 +1,7 @@
 // All commands together.
 import { expect, test, vi } from "vitest";
-import type { Command } from "./command";
-import { commandFor, listCommands, foldCommands, rankLines } from "./list";
+import { type Command, needs } from "./command";
+import { commandFor, listCommands, foldCommands, paletteLines, rankLines } from "./list";
 
 vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn() }));
 
@@ -10,7 +10,7 @@ const command = (id: string, enabled = true): Command => ({
   title: id,
   group: "Go",
   keys: ["A"],
-  enabled: () => enabled,
+  enabled: needs("no", () => enabled),
   run: () => undefined,
 });
 
@@ -63,6 +63,25 @@ test("what begins with the word comes before what has it inside", () => {
 test("every word must be there, and none is taken for a pattern", () => {
   expect(titles("asset next")).toEqual(["Next asset"]);
   expect(titles("(.*")).toEqual([]);
+});
+
+test("the list of commands has every command; one that cannot run now, and no other, has a reason", () => {
+  const shown = new Map(paletteLines().map((one) => [one.id, one]));
+  const others = listCommands().filter(({ id }) => id !== "palette");
+  expect(others.filter(({ id }) => !shown.has(id)).map(({ id }) => id)).toEqual([]);
+  const wrong = others.filter(({ id, enabled }) => {
+    const reason = shown.get(id)?.reason;
+    return enabled && !enabled() ? !/^[A-Z].*\.$/.test(reason ?? "") : reason !== null;
+  });
+  expect(wrong.map(({ id }) => id)).toEqual([]);
+  expect([shown.get("undo")?.reason, shown.get("apply")?.reason]).toEqual(["Nothing to undo.", "There are no assets yet."]);
+});
+
+test.each([
+  ["export", "export"], ["split", "cut"], ["cut", "cut"], ["unit", "unit"], ["import", "add"], ["add assets", "add"], ["decompose", "decompose"],
+  ["undo", "undo"], ["rename", "vocabulary"], ["save", "save"], ["orient", "landmark"], ["up", "landmark"], ["settings", "unit"], ["history", "history"],
+])("%s is found by its common word", (word, id) => {
+  expect(rankLines(paletteLines(), word).map((one) => one.id).slice(0, 4)).toContain(id);
 });
 
 test("the group is found, too", () => {

@@ -66,17 +66,17 @@ function foldRun(run: readonly HelpLine[]): readonly HelpLine[] {
 }
 
 /** Those with every word of the search; where it begins a title, or a word of it, they come first. */
-export function rankLines<T extends { title: string; aside: string }>(all: readonly T[], search: string): readonly T[] {
+export function rankLines<T extends { title: string; aside: string; words?: string | undefined }>(all: readonly T[], search: string): readonly T[] {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   const [first] = words;
   if (first === undefined) return all;
-  const place = ({ title }: T) => {
+  const place = ({ title, words: more }: T) => {
     const text = title.toLowerCase();
     if (text.startsWith(first)) return 0;
-    return text.split(/[\s_/-]+/).some((word) => word.startsWith(first)) ? 1 : 2;
+    return `${text} ${more ?? ""}`.split(/[\s_/-]+/).some((word) => word.startsWith(first)) ? 1 : 2;
   };
-  const fits = all.filter(({ title, aside }) => {
-    const text = `${title} ${aside}`.toLowerCase();
+  const fits = all.filter(({ title, aside, words: more }) => {
+    const text = `${title} ${aside} ${more ?? ""}`.toLowerCase();
     return words.every((word) => text.includes(word));
   });
   return [...fits].sort((a, b) => place(a) - place(b));
@@ -87,19 +87,24 @@ export interface PaletteLine {
   title: string;
   aside: string;
   keys: string | undefined;
+  words?: string | undefined;
+  /** Why it cannot be done now, null where it can. */
+  reason: string | null;
   run: () => void;
 }
 
-/** What the list of commands offers: commands that make sense now, and assets. */
+/** What the list of commands offers: commands that make sense now, then the others, and assets. */
 export function paletteLines(): readonly PaletteLine[] {
   const lines = listCommands()
-    .filter((command) => command.id !== "palette" && (command.enabled?.() ?? true))
-    .map(({ id, title, group, keys, run }) => ({ id, title, aside: group, keys: keys[0], run }));
+    .filter((command) => command.id !== "palette")
+    .map(({ id, title, group, keys, words, enabled, run }) => ({ id, title, aside: group, keys: keys[0], words, reason: enabled?.reason() ?? null, run }));
+  lines.sort((a, b) => Number(a.reason !== null) - Number(b.reason !== null));
   const assets = useProject.getState().order.map((asset) => ({
     id: `asset ${asset}`,
     title: asset,
     aside: "Asset",
     keys: undefined,
+    reason: null,
     run: () => openAsset(asset),
   }));
   return [...lines, ...assets];

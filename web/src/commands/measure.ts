@@ -4,12 +4,12 @@ import { addMeasure, clearMeasures, measureExtents, measureGap, useRuler } from 
 import { type Scene, useScenes } from "../store/scenes";
 import { setSection, useSection } from "../store/section";
 import { setTool, setUnit, useWorkspace } from "../store/workspace";
-import { commandsOf } from "./command";
+import { commandsOf, needs } from "./command";
 
 const here = (): Scene | null => useScenes.getState().scene;
-const isHere = (): boolean => here() !== null;
-const isCutOpen = (): boolean => useSection.getState().on;
-const hasMeasures = (): boolean => useRuler.getState().measures.some(({ asset }) => asset === here()?.asset);
+const isHere = needs("No asset is shown.", () => here() !== null);
+const isCutOpen = needs("Show the section plane first (Shift+K).", () => useSection.getState().on);
+const hasMeasures = needs("Nothing is measured here.", () => useRuler.getState().measures.some(({ asset }) => asset === here()?.asset));
 
 /** Of one hull or several its extents, of two the gap between them. */
 export function measureSelection(): void {
@@ -43,6 +43,7 @@ export const measureCommands = commandsOf("View", [
   {
     id: "tool-ruler",
     title: "Ruler: measure between two points",
+    words: "distance length",
     keys: ["D"],
     enabled: isHere,
     run: () => setTool(useWorkspace.getState().tool === "ruler" ? "select" : "ruler"),
@@ -51,7 +52,7 @@ export const measureCommands = commandsOf("View", [
     id: "measure-selection",
     title: "Measure the selection: the gap between two hulls, or extents",
     keys: ["Shift+D"],
-    enabled: () => isHere() && useWorkspace.getState().selection.size > 0,
+    enabled: needs("Select hulls first.", () => isHere() && useWorkspace.getState().selection.size > 0),
     run: measureSelection,
   },
   {
@@ -63,6 +64,7 @@ export const measureCommands = commandsOf("View", [
   {
     id: "unit",
     title: "Lengths in metres or millimetres",
+    words: "unit mm settings",
     run: () => setUnit(useWorkspace.getState().unit === "m" ? "mm" : "m"),
   },
 ]);

@@ -1,16 +1,23 @@
 // Commands that go somewhere.
 import { beforeEach, expect, test, vi } from "vitest";
+import { api } from "../server/api";
+import { useCalls } from "../store/calls";
+import { nextText } from "../store/nextStep";
 import { emptyProject, useProject } from "../store/project";
 import { sampleCard } from "../store/sample.test-help";
 import { initialLayout, initialWorkspace, useLayout, useWorkspace } from "../store/workspace";
+import type { NextStep } from "../wire";
 import { commandFor } from "./list";
 import { goCommands } from "./navigate";
 
-vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn() }));
+vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn(), pendingEdits: vi.fn() }));
 
 const plain = sampleCard({ hulls: 1, labels: [0] });
 const run = (key: string) => commandFor(key, goCommands)?.run();
 const asset = () => useWorkspace.getState().asset;
+
+const setNext = (kind: NextStep["kind"], to: string | null = null) =>
+  useProject.setState((state) => ({ project: { ...state.project, next: { kind, text: "Look.", asset: to, command: null, note: null } } }));
 
 beforeEach(() => {
   const cards = [plain, { ...plain, asset: "b", confidence: [20] }, { ...plain, asset: "c" }];
@@ -44,9 +51,30 @@ test("Alt and a digit go to a stage", () => {
 });
 
 test("what is next is one key away", () => {
-  useProject.setState((state) => ({ project: { ...state.project, next: { kind: "review", text: "Look.", asset: "c", command: null, note: null } } }));
+  setNext("review", "c");
   run("Alt+Enter");
   expect([useWorkspace.getState().stage, asset()]).toEqual(["review", "c"]);
+});
+
+test.each([
+  ["apply", "apply"], ["export", "export"], ["answer", "card"], ["demonstrate", null],
+] as const)("a step to %s calls for its place", (kind, place) => {
+  useCalls.setState({ place: null });
+  setNext(kind);
+  run("Alt+Enter");
+  expect(useCalls.getState().place).toBe(place);
+});
+
+test.each([["decompose", "decompose"], ["label-all", "label"]] as const)("a step to %s is done at once, unless it is being done", async (kind, job) => {
+  const started = vi.spyOn(api, "startJob").mockResolvedValue({} as never);
+  useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 0, sources: 1 }), b: sampleCard({ asset: "b", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
+  setNext(kind);
+  expect(nextText(useProject.getState())).toBe("Look.");
+  await run("Alt+Enter");
+  await vi.waitFor(() => expect(started).toHaveBeenCalledOnce());
+  useProject.setState({ jobs: [{ id: "1", kind: job, title: "Working", done: 3, total: 9, doing: "", state: "running", message: "", lines: [], out: null }] });
+  await run("Alt+Enter");
+  expect([started.mock.calls.length, nextText(useProject.getState())]).toEqual([1, "Working: 3 of 9"]);
 });
 
 test("undo is there only if there is something to undo", () => {

@@ -1,8 +1,13 @@
 // Commands that go somewhere: to assets, stages, undo and redo, help, and what surrounds them.
 import { redo, undo } from "../store/edits";
+import { callFor } from "../store/calls";
 import { matchesFilter, neighbour } from "../store/family";
+import { listBare, makeHulls, saveEdits, whyNotDecompose } from "../store/jobs";
+import { walk } from "../store/labelWalk";
+import { jobOfNext } from "../store/nextStep";
 import { useProject } from "../store/project";
 import { openBeside } from "../store/sheet";
+import { notify } from "../store/toasts";
 import { startTour } from "../store/tour";
 import {
   openAsset,
@@ -14,7 +19,8 @@ import {
   type WorkspaceState,
   STAGE_OF,
 } from "../store/workspace";
-import { type Command, commandsOf } from "./command";
+import { type Command, commandsOf, NAMES, needs, unless } from "./command";
+import { tryLabel } from "./label";
 
 /** The next asset that wants to be looked at: wrong, flagged, failed, or with labels that are not sure. */
 function nextDoubtful(): string | null {
@@ -30,8 +36,6 @@ function toggleOverlay(overlay: WorkspaceState["overlay"]): void {
   useWorkspace.setState((workspace) => ({ overlay: workspace.overlay === overlay ? "none" : overlay }));
 }
 
-const NAMES = { label: "Label", demonstrate: "Demonstrate", learn: "Learn", review: "Review" } as const;
-
 const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
   id: `stage-${stage}`,
   title: `Stage ${k + 1}: ${NAMES[stage]}`,
@@ -40,12 +44,28 @@ const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
   run: () => openStage(stage),
 }));
 
-const hasOthers = () => useProject.getState().order.length > 1;
+const hasOthers = needs("There is just one asset.", () => useProject.getState().order.length > 1);
 
-export function goToNext(): void {
+/** Goes where the next step is done, and does it where one command does; what writes files waits at its button for Enter. */
+export function goToNext(): unknown {
   const { next } = useProject.getState().project;
   openStage(STAGE_OF[next.kind]);
   if (next.asset !== null) openAsset(next.asset);
+  if (jobOfNext(useProject.getState())) return;
+  switch (next.kind) {
+    case "decompose":
+      return whyNotDecompose() ?? makeHulls(listBare(useProject.getState().cards));
+    case "label-all":
+      return tryLabel();
+    case "check-labels":
+      return walk();
+    case "answer":
+    case "review":
+      return callFor("card");
+    case "apply":
+    case "export":
+      return callFor(next.kind);
+  }
 }
 
 export const goCommands = commandsOf("Go", [
@@ -61,17 +81,18 @@ export const goCommands = commandsOf("Go", [
     id: "next-doubtful",
     title: "Next asset that is wrong, flagged, failed or unsure",
     keys: ["N"],
-    enabled: () => ["demonstrate", "learn"].includes(useWorkspace.getState().stage) && nextDoubtful() !== null,
+    enabled: needs("None, or the stage has a queue of its own.", () => ["demonstrate", "learn"].includes(useWorkspace.getState().stage) && nextDoubtful() !== null),
     run: () => openAsset(nextDoubtful()),
   },
   ...stageCommands,
-  { id: "go-on", title: "Go to the next step", keys: ["Alt+Enter"], run: goToNext },
+  { id: "go-on", title: "Go to the next step", keys: ["Alt+Enter"], words: "what is next", run: goToNext, movesFocus: true },
   {
     id: "undo",
     title: "Undo",
     group: "Edit",
     keys: ["Ctrl+Z"],
-    enabled: () => useProject.getState().history.undo !== null,
+    words: "back revert",
+    enabled: needs("Nothing to undo.", () => useProject.getState().history.undo !== null),
     run: undo,
   },
   {
@@ -79,8 +100,48 @@ export const goCommands = commandsOf("Go", [
     title: "Redo",
     group: "Edit",
     keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
-    enabled: () => useProject.getState().history.redo !== null,
+    enabled: needs("Nothing to redo.", () => useProject.getState().history.redo !== null),
     run: redo,
+  },
+  {
+    id: "history",
+    title: "History: jump to an earlier or a later state",
+    group: "Edit",
+    keys: ["Alt+Z"],
+    words: "undo list",
+    enabled: needs("Nothing was done yet.", () => useProject.getState().history.undoable + useProject.getState().history.redoable > 0),
+    run: () => toggleOverlay("history"),
+    movesFocus: true,
+  },
+  {
+    id: "save",
+    title: "Save: all is on disk already",
+    group: "Edit",
+    keys: ["Ctrl+S"],
+    words: "store write",
+    run: async () => {
+      await saveEdits();
+      notify("All that you did is on disk.");
+    },
+  },
+  {
+    id: "add",
+    title: "Add assets: files or a folder",
+    group: "Edit",
+    words: "import load open drop",
+    run: () => {
+      setLayout({ family: true });
+      callFor("add");
+    },
+    movesFocus: true,
+  },
+  {
+    id: "decompose",
+    title: "Make hulls for all assets that have none",
+    group: "Edit",
+    words: "decompose coacd vhacd convex",
+    enabled: unless(whyNotDecompose),
+    run: () => makeHulls(listBare(useProject.getState().cards)),
   },
   {
     id: "gallery",
@@ -100,6 +161,7 @@ export const goCommands = commandsOf("Go", [
     id: "theme",
     title: "Theme: light, dark, or like the system",
     group: "View",
+    words: "settings colours",
     run: () => useWorkspace.setState(({ theme }) => ({ theme: nextTheme(theme) })),
   },
   {

@@ -1,10 +1,11 @@
 // What a reply to a question is: one edit, with the id of the choice.
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
+import { takeCall } from "../store/calls";
 import { sampleQuestion } from "../store/sample.test-help";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
 import type { AnyEdit, ReviewChoiceView } from "../wire";
-import { canBeRight, correctSelection, groupReply, putOff, questionCommands, reply, showAsked, takeCall } from "./question";
+import { canBeRight, correctSelection, groupReply, putOff, questionCommands, reply, showAsked } from "./question";
 
 const choice = (id: string, more: Partial<ReviewChoiceView> = {}): ReviewChoiceView => ({ id, text: id, label: null, select: null, sentence: "", orient: null, ...more });
 const hulls = [
@@ -72,6 +73,6 @@ describe("a call for the card", () => {
   it("is there for a card that comes after it, once", () => {
     useWorkspace.setState({ ...initialWorkspace, stage: "demonstrate" }, true);
     questionCommands[0]?.run();
-    expect([takeCall(), takeCall()]).toEqual([true, false]);
+    expect([takeCall("card"), takeCall("card")]).toEqual([true, false]);
   });
 });

@@ -1,12 +1,12 @@
 // Replies to the question of the family's assessment, each one edit that undo takes back, and the way to its card.
-import { create } from "zustand";
+import { callFor } from "../store/calls";
 import { exceptionOf, type Exceptions, isAsked } from "../store/assessment";
 import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
 import type { Reason, ReplyToQuestion, ReviewQuestionView } from "../wire";
-import { commandsOf } from "./command";
+import { commandsOf, needs } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
 export type Said = Omit<ReplyToQuestion, "kind" | "question">;
@@ -62,21 +62,11 @@ export function lookAtHeld(): void {
   setFilters({ search: "", only: ["needs review"], sort: "probability", chosen: true });
 }
 
-/** Counts how often the card was called for, and up to which call it came. */
-export const useCardCalls = create<{ count: number; taken: number }>()(() => ({ count: 0, taken: 0 }));
-
-/** Whether the card was called for since this was asked last; so a stage that a call opens knows of it, too. */
-export function takeCall(): boolean {
-  const { count, taken } = useCardCalls.getState();
-  if (count !== taken) useCardCalls.setState({ taken: count });
-  return count !== taken;
-}
-
 /** Opens the stage of the card, and gives it the focus. */
 export function goToCard(): void {
   const { stage } = useWorkspace.getState();
   if (stage !== "learn" && stage !== "review") openStage("learn");
-  useCardCalls.setState(({ count }) => ({ count: count + 1 }));
+  callFor("card");
 }
 
 export const questionCommands = commandsOf("Learn", [
@@ -84,7 +74,7 @@ export const questionCommands = commandsOf("Learn", [
     id: "question",
     title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
     keys: ["U"],
-    enabled: () => isAsked(useProject.getState()),
+    enabled: needs("Nothing is asked now.", () => isAsked(useProject.getState())),
     run: goToCard,
     movesFocus: true,
   },

@@ -1,4 +1,5 @@
 // What a person does with results: apply, accept, call wrong, exclude, correct, export, and go to the next that wants a look.
+import { callFor } from "../store/calls";
 import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
@@ -7,7 +8,7 @@ import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from 
 import { notify, reportError } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card, GoalResultView } from "../wire";
-import { commandsOf } from "./command";
+import { commandsOf, inStage, needs, unless } from "./command";
 import { runInTurn } from "./queue";
 
 /** All cards in the family's order. */
@@ -94,6 +95,8 @@ export function nextToReview(): void {
   notify(last ? "No other result needs review." : "Nothing is left to review.");
 }
 
+const whyNotReview = () => (reviewable() ? null : "Open an asset with a result, in Review (Alt+4).");
+
 /** The card of the open asset, if it has an output that can be reviewed. */
 function reviewable(): Card | null {
   const { asset, stage } = useWorkspace.getState();
@@ -106,7 +109,7 @@ export const reviewCommands = commandsOf("Review", [
     id: "accept",
     title: "Accept the result, go to the next",
     keys: ["Y"],
-    enabled: () => reviewable()?.stale.length === 0,
+    enabled: unless(() => whyNotReview() ?? (reviewable()?.stale.length ? "The result is not up to date." : null)),
     run: () => {
       const card = reviewable();
       if (card) return accept(card.asset);
@@ -116,7 +119,7 @@ export const reviewCommands = commandsOf("Review", [
     id: "wrong",
     title: "Call the result wrong, or take that back",
     keys: ["F"],
-    enabled: () => reviewable() !== null,
+    enabled: unless(whyNotReview),
     run: () => {
       const card = reviewable();
       if (card) return card.review === "wrong" ? withdrawReview(card.asset) : callWrong(card.asset, card.note);
@@ -125,7 +128,8 @@ export const reviewCommands = commandsOf("Review", [
   {
     id: "apply",
     title: "Apply the program to all assets",
-    enabled: () => whyNotApply() === null,
+    words: "run batch",
+    enabled: unless(whyNotApply),
     run: () => {
       openStage("review");
       void applyTo(null);
@@ -134,7 +138,7 @@ export const reviewCommands = commandsOf("Review", [
   {
     id: "check-all",
     title: "Check all results",
-    enabled: () => whyNotCheck() === null,
+    enabled: unless(whyNotCheck),
     run: () => {
       openStage("review");
       void checkAll();
@@ -144,14 +148,25 @@ export const reviewCommands = commandsOf("Review", [
     id: "checks",
     title: "Show or hide the checks of the result",
     keys: ["Shift+C"],
-    enabled: () => useWorkspace.getState().stage === "review",
+    enabled: inStage("review"),
     run: () => setChecks({ open: !useWorkspace.getState().checks.open }),
   },
   {
     id: "next-to-review",
     title: "Next result to review",
     keys: ["N"],
-    enabled: () => useWorkspace.getState().stage === "review",
+    enabled: inStage("review"),
     run: nextToReview,
+  },
+  {
+    id: "export",
+    title: "Export results into a folder",
+    words: "save output download",
+    enabled: needs("Nothing is written yet: apply the program.", () => cardsInOrder().some(isWritten)),
+    run: () => {
+      openStage("review");
+      callFor("export");
+    },
+    movesFocus: true,
   },
 ]);

@@ -13,7 +13,7 @@ import {
 } from "../store/selection";
 import { selectSimilar } from "../store/similar";
 import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
-import { commandsOf } from "./command";
+import { commandsOf, inStage, needs } from "./command";
 
 /** The scene that the selection belongs to. */
 function here(): Scene | null {
@@ -21,8 +21,9 @@ function here(): Scene | null {
   return scene && scene.asset === useWorkspace.getState().asset ? scene : null;
 }
 
-const hasSelection = (): boolean => here() !== null && useWorkspace.getState().selection.size > 0;
-const hasHulls = (): boolean => (here()?.hulls.length ?? 0) > 0;
+const hasSelection = needs("Select hulls first.", () => here() !== null && useWorkspace.getState().selection.size > 0);
+const hasAny = needs("Select hulls first.", () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0);
+const hasHulls = needs("No hulls are shown.", () => (here()?.hulls.length ?? 0) > 0);
 
 /** Selects what a rule makes of the selection, as far as it is in sight. */
 function changeSelection(rule: (scene: Connected, selection: Selection) => Set<string>): void {
@@ -55,7 +56,8 @@ export const selectCommands = commandsOf("Select", [
     id: "select-none",
     title: "Select nothing",
     keys: ["Alt+A", "Escape"],
-    enabled: () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0,
+    words: "deselect",
+    enabled: needs("Nothing is selected.", hasAny),
     run: () => select([]),
   },
   {
@@ -97,7 +99,7 @@ export const selectCommands = commandsOf("Select", [
     id: "select-similar-everywhere",
     title: "Select hulls that look alike on all assets; again for more",
     keys: ["Shift+J"],
-    enabled: () => useWorkspace.getState().stage === "label" && (hasSelection() || useWorkspace.getState().elsewhere.size > 0),
+    enabled: inStage("label", hasAny),
     run: () => selectSimilar("everywhere"),
   },
   {
@@ -125,7 +127,7 @@ export const selectCommands = commandsOf("Select", [
     id: "show-all",
     title: "Show all hulls",
     keys: ["Alt+H"],
-    enabled: () => useWorkspace.getState().hidden.size > 0,
+    enabled: needs("Nothing is hidden.", () => useWorkspace.getState().hidden.size > 0),
     run: showAll,
   },
 ]);

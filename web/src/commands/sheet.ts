@@ -3,21 +3,21 @@ import { leaveOut, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
 import { assetsInView, toggleSheet } from "../store/sheet";
 import { useWorkspace } from "../store/workspace";
-import { commandsOf } from "./command";
+import { commandsOf, inStage, needs, unless } from "./command";
 
 export const sheetCommands = commandsOf("Label", [
   {
     id: "sheet",
     title: "Label several assets side by side, or one alone again",
     keys: ["W"],
-    enabled: () => useWorkspace.getState().stage === "label" && useProject.getState().order.length > 1,
+    enabled: inStage("label", needs("There is just one asset.", () => useProject.getState().order.length > 1)),
     run: toggleSheet,
   },
   {
     id: "sheet-leave",
     title: "Show the open asset alone",
     keys: ["Escape"],
-    enabled: hasNothingElse,
+    enabled: needs("One asset is shown, or Escape first leaves what is in hand.", hasNothingElse),
     run: toggleSheet,
   },
 ]);
@@ -28,10 +28,10 @@ function hasNothingElse(): boolean {
   return sheet.length > 0 && !selection.size && !elsewhere.size && brush === null && tool === "select";
 }
 
-const isAble = () => whyNotLeave(assetsInView(useWorkspace.getState())) === null;
+const isAble = unless(() => whyNotLeave(assetsInView(useWorkspace.getState())));
 
 const withChosen = (does: (assets: readonly string[]) => Promise<void>) => () => does(assetsInView(useWorkspace.getState()));
 
 export const memberCommands = commandsOf("Edit", [
-  { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", enabled: isAble, run: withChosen(leaveOut) },
+  { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", words: "remove exclude", enabled: isAble, run: withChosen(leaveOut) },
 ]);

@@ -10,10 +10,10 @@ import {
   useWorkspace,
   type ViewSettings,
 } from "../store/workspace";
-import { type Command, commandsOf } from "./command";
+import { type Command, commandsOf, type Condition, needs } from "./command";
 
-const isHere = (): boolean => useScenes.getState().scene !== null;
-const isNotLabelling = (): boolean => isHere() && useWorkspace.getState().stage !== "label";
+const isHere = needs("No asset is shown.", () => useScenes.getState().scene !== null);
+const isNotLabelling = needs("In Label, digits give labels.", () => isHere() && useWorkspace.getState().stage !== "label");
 
 const SIDES: readonly { side: StandardView; digit: 1 | 3 | 7; opposite: StandardView }[] = [
   { side: "front", digit: 1, opposite: "back" },
@@ -41,7 +41,7 @@ function lookByDigit(side: StandardView, digit: number): void {
   isSaid = true;
 }
 
-function lookCommand(side: StandardView, keys: readonly string[], enabled: () => boolean): Command {
+function lookCommand(side: StandardView, keys: readonly string[], enabled: Condition): Command {
   const title = `View from the ${side}`;
   return { id: `view-${side}`, title, group: "View", keys, enabled, run: () => lookFrom(side) };
 }
@@ -59,7 +59,7 @@ function toolCommand(name: Tool, title: string, keys: readonly string[]): Comman
 }
 
 /** Whether there is an edited asset in sight to compare with the original asset. */
-const canCompare = (): boolean => useScenes.getState().scene?.edit != null;
+const canCompare = needs("No result or step is shown.", () => useScenes.getState().scene?.edit != null);
 
 function compareCommand(how: "slider" | "side", title: string): Command {
   const run = () => setView({ compare: useWorkspace.getState().view.compare === how ? "off" : how });
@@ -79,7 +79,7 @@ export const viewCommands = commandsOf("View", [
     title: "Leave the tool",
     group: "Select",
     keys: ["Escape"],
-    enabled: () => useWorkspace.getState().tool !== "select",
+    enabled: needs("No tool is in hand.", () => useWorkspace.getState().tool !== "select"),
     run: () => setTool("select"),
   },
   ...sideCommands,

@@ -5,16 +5,19 @@ import { reportError } from "../store/toasts";
 import { addAssets, type PlacedFile, stopUpload, useUpload } from "../store/upload";
 import { Button } from "../ui/Button";
 import { Menu } from "../ui/Menu";
+import { useCalled } from "../ui/useCalled";
 import css from "./adding.module.css";
 
 export function AddMenu({ words = "Add" }: { words?: string }) {
   const files = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
+  const button = useRef<HTMLButtonElement>(null);
+  useCalled("add", () => button.current?.focus());
   return (
     <>
       <Menu
         trigger={
-          <Button look={words === "Add" ? "quiet" : "primary"} icon={Plus} aria-label="Add assets">
+          <Button ref={button} look={words === "Add" ? "quiet" : "primary"} icon={Plus} aria-label="Add assets">
             {words}
           </Button>
         }

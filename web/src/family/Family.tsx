@@ -2,8 +2,8 @@
 // of them, and the cards.
 import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
 import { useShown } from "../store/family";
-import { makeHulls, useIsDecomposing } from "../store/jobs";
-import { oncePerFamily, useProject } from "../store/project";
+import { listBare, makeHulls, useIsDecomposing } from "../store/jobs";
+import { useProject } from "../store/project";
 import { setLayout, useLayout } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { AddMenu } from "./AddAssets";
@@ -87,8 +87,6 @@ function ReadProgress() {
     </div>
   );
 }
-
-const listBare = oncePerFamily((cards) => cards.filter((card) => card.hulls === 0 && card.sources > 0).map((card) => card.asset));
 
 /** Assets that have geometry, yet no hulls: making them. */
 function MissingHulls() {

@@ -1,11 +1,11 @@
-// A list of what can be done now, and of all assets, by name.
+// A list of all that can be done, with why not where that is not now, and of all assets, by name.
 import { Dialog } from "radix-ui";
 import { type KeyboardEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { type PaletteLine, paletteLines, rankLines } from "../commands/list";
 import { useWorkspace } from "../store/workspace";
 import css from "./overlay.module.css";
 
-const MOST = 60;
+const MOST = 200;
 const close = () => useWorkspace.setState({ overlay: "none" });
 
 export function Palette() {
@@ -31,7 +31,7 @@ function List() {
   const shown = rankLines(all, search).slice(0, MOST);
   const run = (place: number) => {
     const choice = shown[place];
-    if (!choice) return;
+    if (!choice || choice.reason !== null) return;
     close();
     // once the dialog has given the focus back
     setTimeout(choice.run);
@@ -85,7 +85,7 @@ interface RowProps {
   onPoint: () => void;
 }
 
-function Row({ id, choice: { title, aside, keys }, on, onRun, onPoint }: RowProps) {
+function Row({ id, choice: { title, aside, keys, reason }, on, onRun, onPoint }: RowProps) {
   const row = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (on) row.current?.scrollIntoView({ block: "nearest" });
@@ -96,12 +96,15 @@ function Row({ id, choice: { title, aside, keys }, on, onRun, onPoint }: RowProp
       id={id}
       role="option"
       aria-selected={on}
+      aria-disabled={reason !== null}
       className={css.option}
       onClick={onRun}
       onPointerMove={onPoint}
     >
       <span className={css.grow}>{title}</span>
-      <span className={css.aside}>{aside}</span>
+      <span className={css.aside} title={reason ?? undefined}>
+        {reason ?? aside}
+      </span>
       {keys && <kbd>{keys}</kbd>}
     </li>
   );

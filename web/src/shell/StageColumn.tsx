@@ -6,10 +6,10 @@ import { DemonstratePanel } from "../panels/demonstrate/DemonstratePanel";
 import { LabelPanel } from "../panels/label/LabelPanel";
 import { LearnPanel } from "../panels/learn/LearnPanel";
 import { ReviewPanel } from "../panels/review/ReviewPanel";
+import { nextText, useIsThere } from "../store/nextStep";
 import { useProject } from "../store/project";
 import { goToNext } from "../commands/navigate";
 import { openStage, setLayout, STAGE_OF, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
-import { Button } from "../ui/Button";
 import { HullList } from "../hulls/HullList";
 import { Divider } from "./Divider";
 import css from "./Side.module.css";
@@ -84,25 +84,22 @@ function Panel({ stage }: { stage: StageName }) {
   );
 }
 
-/** What is sensible to do next, in a sentence, and the way there. */
+/** What is sensible to do next, in a sentence, which is the button that leads there; or what is being done. */
 function NextLine() {
-  const next = useProject((state) => state.project.next);
-  const there = useWorkspace((workspace) => workspace.stage === STAGE_OF[next.kind] && (next.asset === null || workspace.asset === next.asset));
-  if (!next.text) return null;
+  const text = useProject(nextText);
+  const there = useIsThere();
+  if (!text) return null;
   return (
-    <div className={css.nextLine} role="status">
-      <span className={css.next} aria-hidden />
-      <span className={css.say}>{next.text}</span>
-      {!there && (
-        <Button
-          look="quiet"
-          icon={ArrowRight}
-          tip={next.asset === null ? "Go there" : `Go there: ${next.asset}`}
-          keys="Alt+Enter"
-          aria-label="Go to the next step"
-          onClick={goToNext}
-        />
-      )}
+    <div role="status">
+      <button type="button" className={css.nextLine} disabled={there} aria-keyshortcuts="Alt+Enter" onClick={() => void goToNext()}>
+        <span className={css.next} aria-hidden />
+        <span className={css.say}>{text}</span>
+        {!there && (
+          <>
+            <kbd>Alt+Enter</kbd> <ArrowRight size={15} aria-hidden />
+          </>
+        )}
+      </button>
     </div>
   );
 }

@@ -1,8 +1,7 @@
 // The bar above: project, search, undo and redo, what works in the background, theme, help.
-import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Redo2, Search, Undo2 } from "lucide-react";
+import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Search } from "lucide-react";
 import { Popover } from "radix-ui";
 import { api } from "../server/api";
-import { redo, undo } from "../store/edits";
 import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
 import { reportError } from "../store/toasts";
@@ -11,6 +10,7 @@ import { Button, IconButton } from "../ui/Button";
 import { ThemeMenu } from "../ui/ThemeMenu";
 import { Wordmark } from "../ui/Wordmark";
 import type { Job } from "../wire";
+import { History } from "./History";
 import css from "./TopBar.module.css";
 
 export function TopBar() {
@@ -51,28 +51,6 @@ function SearchButton() {
       <span>Find a command or an asset</span>
       <kbd>Ctrl+K</kbd>
     </button>
-  );
-}
-
-function History() {
-  const history = useProject((state) => state.history);
-  return (
-    <span className={css.history}>
-      <IconButton
-        icon={Undo2}
-        name={history.undo === null ? "Nothing to undo" : `Undo: ${history.undo}`}
-        keys="Ctrl+Z"
-        disabled={history.undo === null}
-        onClick={() => void undo()}
-      />
-      <IconButton
-        icon={Redo2}
-        name={history.redo === null ? "Nothing to redo" : `Redo: ${history.redo}`}
-        keys="Ctrl+Shift+Z"
-        disabled={history.redo === null}
-        onClick={() => void redo()}
-      />
-    </span>
   );
 }
 

@@ -2,7 +2,7 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
 import { page, ServerProblem } from "../server/http";
-import { pendingEdits, perform, capitalize, undo } from "./edits";
+import { jumpTo, pendingEdits, perform, capitalize, undo } from "./edits";
 import { emptyProject, receive, useProject } from "./project";
 import { useToasts } from "./toasts";
 
@@ -36,6 +36,15 @@ test("undoing says that it was undone, and offers no undo of that", async () => 
   vi.mocked(api.undo).mockResolvedValue({ message: "step 1 of a: Delete" });
   await undo();
   expect(toasts()[0]).toMatchObject({ text: "Undone: step 1 of a: Delete", undo: false });
+});
+
+test("jumping undoes or redoes up to a state, by one request", async () => {
+  useProject.setState({ history: { undo: "a", redo: "b", undoable: 5, redoable: 4 } });
+  vi.mocked(api.undo).mockResolvedValue({ message: "x" });
+  vi.mocked(api.redo).mockResolvedValue({ message: "x" });
+  await Promise.all([jumpTo(2, "Undone: 3 acts"), jumpTo(9, "Redone: 4 acts")]);
+  expect([vi.mocked(api.undo).mock.calls, vi.mocked(api.redo).mock.calls]).toEqual([[[2]], [[9]]]);
+  expect(toasts().map(({ text }) => text)).toEqual(["Undone: 3 acts", "Redone: 4 acts"]);
 });
 
 test("an edit waits for those before it, also where one is refused", async () => {

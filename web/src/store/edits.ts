@@ -18,8 +18,14 @@ export function perform(edit: AnyEdit, options: { quiet?: boolean } = {}): Promi
   return enqueue(() => api.edit(edit), options.quiet ? null : capitalize);
 }
 
-export const undo = (): Promise<boolean> => enqueue(api.undo, (said) => `Undone: ${said}`);
-export const redo = (): Promise<boolean> => enqueue(api.redo, (said) => `Redone: ${said}`);
+export const undo = (): Promise<boolean> => enqueue(() => api.undo(), (said) => `Undone: ${said}`);
+export const redo = (): Promise<boolean> => enqueue(() => api.redo(), (said) => `Redone: ${said}`);
+
+/** Undoes or redoes one act after the other, until so many changes are done; said: what that is, in words. */
+export function jumpTo(done: number, said: string): Promise<boolean> {
+  const isBack = done < useProject.getState().history.undoable;
+  return enqueue(() => (isBack ? api.undo : api.redo)(done), () => said);
+}
 
 /** What was done as a sentence: its first word, unless that is a name, with a capital letter. */
 export const capitalize = (said: string): string => said.replace(/^[a-z](?=[a-z]*[ :])/, (first) => first.toUpperCase());

@@ -6,7 +6,7 @@ import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
 import { labelProgress } from "./labelWalk";
 import { useRebuildChoice } from "./newAssets";
-import { useProject } from "./project";
+import { oncePerFamily, useProject } from "./project";
 import { reportError } from "./toasts";
 
 const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
@@ -97,6 +97,16 @@ export function cancelJob(id: string): void {
 /** The latest job of a kind. */
 export function useJob(kind: Job["kind"]): Job | null {
   return useProject((state) => state.jobs.findLast((job) => job.kind === kind) ?? null);
+}
+
+/** Assets that have geometry, yet no hulls. */
+export const listBare = oncePerFamily((cards) => cards.filter((card) => card.hulls === 0 && card.sources > 0).map((card) => card.asset));
+
+/** Why no hulls can be made, null where they can. */
+export function whyNotDecompose(): string | null {
+  const { cards, jobs } = useProject.getState();
+  if (isRunning(jobs, "decompose")) return "Hulls are being made now.";
+  return listBare(cards).length ? null : "Every asset has hulls.";
 }
 
 export const makeHulls = (assets: string[]): void => void startJob({ kind: "decompose", assets });

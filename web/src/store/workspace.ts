@@ -123,7 +123,7 @@ export interface WorkspaceState {
   unit: LengthUnit;
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
-  overlay: "none" | "help" | "palette";
+  overlay: "none" | "help" | "palette" | "history";
   /** Counts up when the camera is asked to move: to a standard view, to fit all, to frame the selection, or to look at it from
    * where the rest of the asset is seen, too. */
   cameraOrder: { count: number; to: StandardView | "fit" | "frame" | "near" };
@@ -256,8 +256,11 @@ export const setTool = (tool: Tool): void => set({ tool, landmarks: [] });
 
 export const setThrough = (through: boolean): void => set({ through });
 
-/** Arms a label, so that clicks paint it; null puts the brush down. */
-export const setBrush = (brush: string | null): void => set({ brush });
+/** Arms a label, so that clicks paint it, and nothing is selected; null puts the brush down. */
+export const setBrush = (brush: string | null): void => set(brush === null ? { brush } : { brush, ...LEFT });
+
+// who selects paints no longer, so that a digit and a click have one meaning
+useWorkspace.subscribe(({ brush, selection, elsewhere }) => brush !== null && (selection.size || elsewhere.size) && setBrush(null));
 
 export const setDraft = (draft: Draft | null): void => set({ draft });
 

@@ -1,10 +1,11 @@
 // Buttons, with words or as an icon; every icon has a name for screen readers and a tooltip.
 import type { LucideIcon } from "lucide-react";
 import { Tooltip } from "radix-ui";
-import type { ButtonHTMLAttributes, ReactNode } from "react";
+import type { ButtonHTMLAttributes, ReactNode, Ref } from "react";
 import css from "./ui.module.css";
 
 interface ButtonProps extends ButtonHTMLAttributes<HTMLButtonElement> {
+  ref?: Ref<HTMLButtonElement>;
   look?: "plain" | "primary" | "quiet" | "danger";
   icon?: LucideIcon;
   tip?: string;

@@ -32,6 +32,9 @@ from meshforge.studio.workers import wait_for
 router = APIRouter()
 Result = TypeVar("Result")
 
+MoveTarget = Annotated[int | None, Body(embed=True)]
+MOST_ACTS = 100
+"""Acts before and after the present state that a page is sent."""
 POLL_SECONDS = 0.2
 """Seconds between two checks whether the page still waits."""
 _CACHE_FOREVER = {"Cache-Control": "private, max-age=31536000, immutable"}
@@ -210,15 +213,21 @@ def make_edit(
 
 
 @router.post("/api/undo")
-def undo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
-    """Undo what was done last."""
-    return session.move("undo", page)
+def undo(session: CurrentSession, page: SenderId = None, to: MoveTarget = None) -> requests.EditReceipt:
+    """Undo what was done last; to: until so many changes are done."""
+    return session.move("undo", page, to)
 
 
 @router.post("/api/redo")
-def redo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
-    """Redo what was undone last."""
-    return session.move("redo", page)
+def redo(session: CurrentSession, page: SenderId = None, to: MoveTarget = None) -> requests.EditReceipt:
+    """Redo what was undone last; to: until so many changes are done."""
+    return session.move("redo", page, to)
+
+
+@router.get("/api/history")
+def get_history(session: CurrentSession) -> requests.HistoryView:
+    """Return what was done and undone last."""
+    return requests.HistoryView(acts=session.history.list_acts(MOST_ACTS))
 
 
 @router.post("/api/learn")

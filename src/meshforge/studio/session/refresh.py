@@ -11,7 +11,7 @@ from time import monotonic
 from meshforge.batch import read_stamp
 from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
 from meshforge.labels import OfferCache
-from meshforge.project import AssetStatus, NextStep, Project, Status, choose_next_step, find_offers, list_new
+from meshforge.project import AssetStatus, Project, Status, choose_next_step, find_offers, list_new
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
@@ -101,9 +101,11 @@ class Refresher:
         family = replace(status.family, find_offers=offers)
         shown = self._pages.shown
         known = shown.program, shown.outcome, shown.assessment
-        step = choose_next_step(add_session(family, *known, propagation, problem))
-        if step.kind == "learn" and shown.learning:  # never what is being done already
-            step = NextStep("learn", "The program is being learned.")
+        is_judged = not shown.learning and (not shown.assessing or shown.assessment is not None)
+        feedback = project.feedback()
+        said = bool(feedback.verdicts or feedback.answers or feedback.replied)
+        family = add_session(family, *known, propagation, problem)
+        step = choose_next_step(replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=said))
         return build_project_view(project, step, problem, status.lost, propagation, new)
 
     def _count_read(self) -> None:

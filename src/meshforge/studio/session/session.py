@@ -151,18 +151,25 @@ class Session:
             self.announce((entry,), by)
         return EditReceipt(message=entry.title)
 
-    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> EditReceipt:
-        """Undo what was done last, or redo what was undone last."""
+    def move(self, way: Literal["undo", "redo"], by: str | None = None, to: int | None = None) -> EditReceipt:
+        """Undo what was done last, or redo what was undone last; to: on and on, until so many changes are done.
+
+        Raises ConflictError where something else changed a file since; what was undone or redone before that stays so.
+        """
+        move, moved = (self.history.undo if way == "undo" else self.history.redo), list[HistoryEntry]()
         with self._mutex:
             self.learning.pause()
             try:
-                entries = self.history.undo() if way == "undo" else self.history.redo()
+                while entries := move():
+                    moved += entries
+                    done = self.history.state.undoable
+                    if to is None or (done <= to if way == "undo" else done >= to):
+                        break
             finally:
                 self.learning.resume()
-            if not entries:
-                return EditReceipt(message=f"there is nothing to {way}", nothing=True)
-            self.announce(entries, by)
-        return EditReceipt(message=entries[0].title)
+                if moved:
+                    self.announce(moved, by)
+        return EditReceipt(message=moved[0].title if moved else f"there is nothing to {way}", nothing=not moved)
 
     def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""

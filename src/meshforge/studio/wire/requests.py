@@ -1,5 +1,6 @@
 """Requests of the page besides edits and jobs, and the short responses."""
 
+from meshforge.store.history import HistoryAct
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.program import ActionCall
 
@@ -73,6 +74,12 @@ class EditReceipt(Wire):
 
     message: str
     nothing: bool = False
+
+
+class HistoryView(Wire):
+    """What was done last and can be undone, and what was undone and can be redone, the first one first."""
+
+    acts: tuple[HistoryAct, ...]
 
 
 class LabelSources(Wire):

@@ -1,6 +1,6 @@
 // The labels that hulls can have: clicked to label or to paint, renamed, put in order, added and removed.
 import { Plus } from "lucide-react";
-import { type FormEvent, useMemo, useState } from "react";
+import { type FormEvent, useMemo, useRef, useState } from "react";
 import { perform } from "../../store/edits";
 import { addLabels, countLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
@@ -9,6 +9,7 @@ import { listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
+import { useCalled } from "../../ui/useCalled";
 import { useReorder } from "../../ui/useReorder";
 import css from "./label.module.css";
 import { LabelRow } from "./LabelRow";
@@ -21,6 +22,8 @@ export function Vocabulary() {
   const classes = vocabulary.filter((label) => label.is_class).map((label) => label.name);
   const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moveItem(names, from, to) });
   const reorder = useReorder("y", move);
+  const list = useRef<HTMLUListElement>(null);
+  useCalled("vocabulary", () => (list.current?.querySelector("button") ?? list.current?.parentElement?.querySelector("input"))?.focus());
   return (
     <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
       {vocabulary.length === 0 && (
@@ -29,7 +32,7 @@ export function Vocabulary() {
       {classes.length > 0 && (
         <Note>{listText(classes)} {classes.length === 1 ? "stands" : "stand"} for hulls that steps take. Rename them as you like.</Note>
       )}
-      <ul className={css.labels}>
+      <ul className={css.labels} ref={list}>
         {vocabulary.map((label, place) => (
           <LabelRow
             key={label.name}

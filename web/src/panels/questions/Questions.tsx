@@ -1,8 +1,9 @@
 // The one queue of questions: the card that makes most results right for a person's time; the view goes along with it.
 import { CircleCheck, CircleQuestionMark, LoaderCircle } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useMemo, useRef } from "react";
-import { lookAtHeld, showAsked, takeCall, useCardCalls } from "../../commands/question";
+import { lookAtHeld, showAsked } from "../../commands/question";
 import { isJudging, openQuestion } from "../../store/assessment";
+import { takeCall, useCalls } from "../../store/calls";
 import { openGoals } from "../../store/goals";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
@@ -20,14 +21,14 @@ export function Questions() {
   const keys = useRef<CardKeys>({});
   const hold = useCallback(() => box.current?.focus({ preventScroll: true }), []);
   const focus = useMemo(() => ({ keys, hold }), [hold]);
-  const calls = useCardCalls((state) => state.count);
+  const calls = useCalls((state) => state.count);
   const last = useRef<string | null>(null);
   useEffect(() => {
     // only another question, or a call, moves the view
     const now = `${asked?.id} ${calls}`;
     if (now === last.current) return;
     last.current = now;
-    if (takeCall()) hold();
+    if (takeCall("card")) hold();
     if (asked && box.current?.contains(document.activeElement)) showAsked(asked);
   }, [calls, asked, hold]);
   return (

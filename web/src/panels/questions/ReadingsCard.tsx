@@ -20,7 +20,8 @@ export function ReadingsCard({ question }: { question: ReviewQuestionView }) {
   const picture = useRulePicture(asset, rule, telling);
   const [later, show, reject] = [() => void putOff(question), () => showAsked(question), () => void reply(question, {})];
   const picks = choices.map(({ id }) => () => void reply(question, { choice: id }));
-  const doing = useCardKeys({ choices: picks, reject, show, later });
+  const [accept] = picks;
+  const doing = useCardKeys({ choices: picks, reject, show, later, ...(accept && { accept }) });
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`}>
       <h3 id={`question-${question.id}`}>
@@ -61,14 +62,15 @@ function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) 
     <button
       type="button"
       className={css.choice}
-      aria-keyshortcuts={String(place + 1)}
+      aria-keyshortcuts={place ? String(place + 1) : "1 Y"}
+      data-default={place === 0}
       onClick={onClick}
       {...whilePointed(point.on, point.off)}
     >
       <HullsPicture picture={picture} hulls={selectOf(choice)} label="" />
       <span className={css.choiceText}>
         <strong>
-          <kbd>{place + 1}</kbd> {choiceText(choices, place)}
+          <kbd>{place + 1}</kbd> {place === 0 && <kbd>Y</kbd>} {choiceText(choices, place)}
         </strong>
         <span className={css.dim}>{choice.sentence}</span>
         {hidden.length > 0 && <span className={css.facts}>{listText(hidden, 2)} not visible here</span>}

@@ -1,5 +1,6 @@
 // Keys on the card of a question: replies, and nothing that the rest of the window means by them.
 import { describe, expect, it, vi } from "vitest";
+import { useToasts } from "../../store/toasts";
 import { pressOnCard } from "./cardKeys";
 
 function press(key: string, more: object = {}) {
@@ -13,8 +14,8 @@ function press(key: string, more: object = {}) {
 
 describe("a key on the card", () => {
   it("replies, and the focus stays for the next question", () => {
-    const done = ["1", "2", "y", "N", "l", "S"].map((key) => press(key));
-    expect(done.map((one) => one.done)).toEqual([["1"], ["2"], ["accept"], ["reject"], ["later"], ["show"]]);
+    const done = ["1", "2", "y", "N", "l", "S", "Enter"].map((key) => press(key));
+    expect(done.map((one) => one.done)).toEqual([["1"], ["2"], ["accept"], ["reject"], ["later"], ["show"], ["accept"]]);
     expect(done.every((one) => one.taken === 1 && one.held === 1)).toBe(true);
   });
 
@@ -25,7 +26,13 @@ describe("a key on the card", () => {
     expect(preventDefault).toHaveBeenCalledOnce();
   });
 
-  it("leaves all other keys to the window", () => {
+  it("that the card has not says which ones it has", () => {
+    pressOnCard({ key: "y", preventDefault: vi.fn() } as never, { choices: [vi.fn(), vi.fn()], later: vi.fn() }, vi.fn());
+    expect(useToasts.getState().toasts.at(-1)?.text).toBe("Here 1 to 2 choose and L puts off.");
+  });
+
+  it("leaves all other keys to the window, and Enter to a button", () => {
+    expect(press("Enter", { target: "button" }).taken).toBe(0);
     for (const key of ["Tab", "x", "0", "Escape", "?"]) expect(press(key).taken).toBe(0);
     expect(press("y", { ctrlKey: true })).toEqual({ done: [], taken: 0, held: 0 });
   });

@@ -1,6 +1,6 @@
 // Which outputs are copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
-import { useMemo, useState } from "react";
+import { useMemo, useRef, useState } from "react";
 import { openGoals } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
@@ -10,6 +10,7 @@ import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
+import { useCalled } from "../../ui/useCalled";
 import type { Job } from "../../wire";
 import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
@@ -32,6 +33,8 @@ export function ExportSection() {
 function Form() {
   const [what, setWhat] = useState<What>("signed");
   const [folder, setFolder] = useState("export");
+  const button = useRef<HTMLButtonElement>(null);
+  useCalled("export", () => button.current?.focus());
   const project = useProject((state) => state.project.folder);
   const cards = useProject((state) => state.cards);
   const confidence = useProject((state) => state.confidence);
@@ -63,7 +66,7 @@ function Form() {
         </>
       )}
       <span />
-      <Button look="primary" icon={FolderOutput} type="submit" disabled={why !== null || !folder.trim()}>
+      <Button ref={button} look="primary" icon={FolderOutput} type="submit" disabled={why !== null || !folder.trim()}>
         Export {countText(counts[what], "asset")}
       </Button>
     </form>

@@ -1,7 +1,8 @@
 // The review stage: apply the program, look at what came of it, accept, call wrong, exclude, correct, export.
 import { Play } from "lucide-react";
-import { useMemo, useState } from "react";
+import { useEffect, useMemo, useRef, useState } from "react";
 import { SignOff } from "../../family/Sureness";
+import { useCalls } from "../../store/calls";
 import { openGoals } from "../../store/goals";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
@@ -11,6 +12,7 @@ import { countText } from "../../store/words";
 import { useLayout } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Check, Choice } from "../../ui/fields";
+import { useCalled } from "../../ui/useCalled";
 import type { Card, Job } from "../../wire";
 import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
@@ -30,6 +32,10 @@ type Part = (typeof PARTS)[number]["value"];
 
 export function ReviewPanel() {
   const [part, setPart] = useState<Part>("asset");
+  const place = useCalls((state) => state.place);
+  useEffect(() => {
+    if (place === "export") setPart(place); // its button then takes the call
+  }, [place]);
   const hidden = useLayout((layout) => !layout.family && !layout.gallery);
   return (
     <div className={css.panel}>
@@ -97,10 +103,12 @@ function Start() {
   const late = useProject((state) => listOutdated(Object.values(state.cards)).length);
   const failed = useProject((state) => groupCards(Object.values(state.cards)).failed.length);
   const some = useProject((state) => Object.values(state.cards).some((card) => card.output !== "none"));
+  const button = useRef<HTMLButtonElement>(null);
+  useCalled("apply", () => button.current?.focus());
   return (
     <div className={css.split}>
       <p>{why ?? stateText(late, failed, some)}</p>
-      <Button look={late && !why ? "primary" : "plain"} icon={Play} disabled={why !== null} onClick={() => void applyTo(null)}>
+      <Button ref={button} look={late && !why ? "primary" : "plain"} icon={Play} disabled={why !== null} onClick={() => void applyTo(null)}>
         Apply to all
       </Button>
     </div>

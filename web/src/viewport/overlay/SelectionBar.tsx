@@ -36,14 +36,17 @@ export function SelectionBar() {
 /** The label in hand. */
 function Paint({ brush }: { brush: string }) {
   const color = useBrushColor(brush);
+  const place = useProject(({ project }) => 1 + project.vocabulary.findIndex(({ name }) => name === brush));
   return (
     <div className={css.bar} role="status" data-testid="painting">
       <Swatch color={color} />
-      <span>
-        Painting <b>{brush || "no label"}</b>: click a hull and what is outlined with it, or drag
-      </span>
-      <Button look="quiet" onClick={() => setBrush(null)} tip="Select again" keys="Esc">
-        Stop
+      <b>
+        Painting: {brush || "no label"}
+        {place < 10 && ` (${place})`}
+      </b>
+      <span className={css.faint}>click hulls with what is outlined, or drag</span>
+      <Button look="quiet" onClick={() => setBrush(null)} tip="Select again">
+        <kbd>Esc</kbd> ends
       </Button>
     </div>
   );

@@ -2,7 +2,6 @@
 // as it is let go.
 import { pressedKeys } from "../../commands/command";
 import { THROUGH_KEY } from "../../commands/select";
-import { useProject } from "../../store/project";
 import { setBrush, setThrough, useWorkspace } from "../../store/workspace";
 
 /** A key that is down: its code, and how to take back what it did. */
@@ -17,14 +16,6 @@ let dragged = false;
 /** Something was dragged to its end; a key that is held then was for this alone. */
 export function noteDrag(): void {
   dragged = held !== null;
-}
-
-/** Takes the label of a digit that is held in hand, as it also is while hulls are selected. */
-export function armHeldDigit(): void {
-  const digit = /^Digit([1-9])$/.exec(held?.code ?? "")?.[1];
-  const { stage, brush } = useWorkspace.getState();
-  const label = digit === undefined ? undefined : useProject.getState().project.vocabulary[Number(digit) - 1];
-  if (label && stage === "label" && brush === null) setBrush(label.name);
 }
 
 /** Watches the keys of painting and of selecting through, until the returned function is called. */

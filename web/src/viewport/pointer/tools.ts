@@ -15,14 +15,12 @@ import { dropPoints, pointRuler, takePoint } from "../../store/ruler";
 import { hover, select, selectMore, useWorkspace } from "../../store/workspace";
 import { beginStroke } from "./brush";
 import type { Drag, PointerTool } from "./gestures";
-import { armHeldDigit } from "./heldKeys";
 import { beginRegion } from "./regions";
 import { snapAt } from "./snap";
 
 export function createPointerTool(stage: Stage): PointerTool {
   return {
     begin: (spot, event) => {
-      if (useWorkspace.getState().tool === "select") armHeldDigit();
       const { tool, brush } = useWorkspace.getState();
       if (tool === "box" || tool === "lasso") return beginRegion(stage, tool, spot, event);
       if (tool === "cut") return beginCut(stage, spot);
