@@ -46,9 +46,9 @@ def rebuild_spanning(
     probability of at least `how.min_confidence`.
 
     Each asset gets one step, which `unprepare` takes back with labels and selections. assets: which may be rebuilt, all
-    when None. bodies: of these assets those that may be, by asset, where not all may. dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were
-    left. write_block: the block in which an asset's files are written.
-    Hulls that were dismissed are of one part.
+    when None; bodies: which of theirs, by asset, in place of `assets`. Hulls that were dismissed are left out.
+    dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were left. write_block: the
+    block in which an asset's files are written.
     Raises UsageError for a probability that is none, ProjectError where no hull has a label.
     """
     if not 0 < how.min_confidence <= 1:

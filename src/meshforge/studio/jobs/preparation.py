@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import groupby
+from typing import Literal
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
@@ -111,32 +112,32 @@ def _are_labels_given(tally: Tally) -> bool:
 
 
 def _rebuild_lines(result: PreparationResult, was_asked: bool) -> Iterator[JobLine]:
-    """What was found of one asset, a line a body, and what of it could not be looked at; was_asked: whether bodies of it
-    were to be rebuilt."""
-    for body, spans in groupby(sorted(result.found, key=lambda one: one.body), key=lambda one: one.body):
-        own = tuple(spans)
-        hulls = tuple(span.hull for span in own)
-        yield JobLine(asset=result.asset, status="done", text="; ".join(map(str, own)), body=body, hulls=hulls)
-    texts = [*result.problems, *result.notes]
-    if was_asked and not result.made and not texts:
-        texts.append("no hull spans parts any more: left as it is")
+    """What was found of one asset, a line a body, and what of it could not be looked at; was_asked: whether bodies of
+    it were to be rebuilt."""
+    asset, texts = result.asset, [*result.problems, *result.notes]
+    if not was_asked:
+        for body, spans in groupby(sorted(result.found, key=lambda one: one.body), key=lambda one: one.body):
+            own = tuple(spans)
+            hulls = tuple(span.hull for span in own)
+            yield JobLine(asset=asset, status="skipped", text="; ".join(map(str, own)), body=body, hulls=hulls)
+    elif not result.problems:
+        texts = ["; ".join(map(str, result.found)) or "no hull spans parts any more: left as it is", *texts]
     if texts:
-        yield JobLine(asset=result.asset, status="failed" if result.problems else "skipped", text="; ".join(texts))
+        status: Literal["failed", "done", "skipped"]
+        status = "failed" if result.problems else "done" if result.made else "skipped"
+        yield JobLine(asset=asset, status=status, text="; ".join(texts))
 
 
 def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
-    made = [result for result in results if result.made]
-    found = [result for result in results if result.found]
+    made, found = ([one for one in results if getattr(one, what)] for what in ("made", "found"))
     lost = sum(bool(result.problems) for result in results)
     left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
     if made:
         hulls = pluralize(sum(len(result.hulls) for result in made), "hull")
         return f"Bodies of {pluralize(len(made), 'asset')} rebuilt: {hulls}.{left}"
     if found:
-        count = sum(len(result.found) for result in found)
-        return (
-            f"{pluralize(count, 'hull')} of {pluralize(len(found), 'asset')} may span parts. Nothing is changed.{left}"
-        )
+        hulls = pluralize(sum(len(result.found) for result in found), "hull")
+        return f"{hulls} of {pluralize(len(found), 'asset')} may span parts. Nothing is changed.{left}"
     return f"None: no hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
 
 

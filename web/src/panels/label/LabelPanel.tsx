@@ -36,6 +36,9 @@ function Walk() {
   const title = counts.flatMap(([count, what]) => (count ? `${count.toLocaleString("en-GB")} ${what}` : [])).join(", ");
   return (
     <Section title={title} aside={next}>
+      <div className={css.meter} aria-hidden>
+        {counts.map(([count, what]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}
+      </div>
       {inHand && <HullInHand {...inHand} />}
     </Section>
   );

@@ -70,7 +70,7 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
 }
 
 /** An asset from a side where the hulls in question are seen, or through what hides them. */
-function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
+export function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
   return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
 }
 
