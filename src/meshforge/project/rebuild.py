@@ -53,7 +53,9 @@ def rebuild_spanning(
     """
     if not 0 < how.min_confidence <= 1:
         raise UsageError(f"--min-confidence {how.min_confidence:g}: a probability is needed, above 0 and at most 1")
-    ids = tuple(bodies) if bodies else store.assets() if assets is None else tuple(dict.fromkeys(assets))
+    if bodies is not None:
+        assets = [asset for asset, names in bodies.items() if names]
+    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
     family = read_reference_family(store, execution, stage, how.pieces)
