@@ -50,7 +50,7 @@ function Ready({ job }: { job: Job | null }) {
         </Button>
       </div>
       {why !== null && <p className={css.hint}>{why}</p>}
-      {job && job.id !== answered && <JobNote job={job} doubtful={found.length > 0} />}
+      {job && job.id !== answered && (found.length > 0 ? <p>{job.message}</p> : <JobNote job={job} />)}
       {job && found.length > 0 && <FoundSheet key={job.id} found={found} onDismiss={() => setAnswered(job.id)} />}
       <JobLines lines={job?.lines.filter(({ body }) => body === null) ?? []} />
     </div>
@@ -69,7 +69,7 @@ function FoundSheet({ found, onDismiss }: { found: readonly JobLine[]; onDismiss
   const tick = (line: JobLine, is: boolean) => setTicked(new Set(is ? [...ticked, line] : [...ticked].filter((one) => one !== line)));
   return (
     <>
-      <p>Tick what is to be rebuilt, each hull of one part; all else stays as it is.</p>
+      <p className={css.hint}>Tick what is to be rebuilt into hulls of one part each; all else stays as it is.</p>
       <ul className={questions.group} aria-label="Hulls that may span parts" data-few={found.length < 3}>
         {found.slice(0, most).map((line) => (
           <Found key={`${line.asset} ${line.body}`} line={line} ticked={ticked.has(line)} onTick={(is) => tick(line, is)} />
@@ -95,7 +95,7 @@ function Found({ line, ticked, onTick }: { line: JobLine; ticked: boolean; onTic
   const order = useProject((state) => state.order);
   const isSigned = useProject((state) => state.confidence[asset]?.state === "signed");
   return (
-    <li className={questions.member} data-exception={ticked}>
+    <li className={questions.member} data-ticked={ticked}>
       <button type="button" className={questions.look} aria-label={`Open ${asset} with ${listText(hulls)} selected`} onClick={() => visit(asset, { kind: "source" }, hulls)}>
         <InSight asset={asset} names={hulls} />
       </button>
