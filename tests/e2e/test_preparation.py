@@ -10,6 +10,7 @@ from meshforge.project import Project
 from tests.e2e.hand import Hand
 from tests.e2e.walk import go_to, visiting
 from tests.unit.batch.families import obj
+from tests.unit.project.stools import create_stools
 from tests.urdf_sample import corner_obj
 
 STOOL = obj({"seat_1": ((0, 0, 1), (2, 2, 1.5)), "leg_1": ((0.5, 0.5, 0), (1, 1, 1))})
@@ -31,6 +32,38 @@ def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: P
         _has_hulls(person, 2)
         _make_hulls(person)
         assert len(project.mesh("corner.obj").hulls) == 2
+
+
+def test_hulls_that_span_parts_are_pictures_to_tick_of_which_the_others_stay(tmp_path: Path, browser: Browser) -> None:
+    sizes = {"a": (0.2, 0.4), "b": (0.22, 0.45), "c": (0.18, 0.38), "d": (0.21, 0.41)}
+    project = create_stools(tmp_path, sizes, spanning="cd")
+    with visiting(tmp_path, project, browser) as (studio, person):
+        person.press("Alt+2")
+        person.click("Find hulls that span parts")
+        person.sees("2 hulls of 2 assets may span parts. Nothing is changed.")
+        sheet = person.page.get_by_role("list", name="Hulls that may span parts")
+        assert sheet.get_by_text("base/h0 holds seat and leg, ").count() == 2
+        assert not sheet.get_by_role("checkbox", checked=True).count() and not project.layout.preparation.ids
+        person.click(sheet.get_by_role("checkbox").nth(1))
+        person.click("Rebuild 1 ticked body")
+        person.sees("Bodies of 1 asset rebuilt")
+        assert project.layout.preparation.ids == ("d.urdf",)
+        person.press("Control+z")
+        studio.until(lambda hello: not hello["history"]["undoable"])
+        assert not project.layout.preparation.ids
+        _find_and_dismiss(person, 2)
+        person.click("Find hulls that span parts")
+        person.sees("None: no hull spans parts")
+        person.press("Control+z")
+        person.sees("Undone: 2 hulls left as found")
+        _find_and_dismiss(person, 2)
+
+
+def _find_and_dismiss(person: Hand, count: int) -> None:
+    person.click("Find hulls that span parts")
+    person.sees(f"{count} hulls of 2 assets may span parts")
+    person.click("None of these")
+    person.page.get_by_role("list", name="Hulls that may span parts").wait_for(state="detached")
 
 
 def _label_by_names(person: Hand) -> None:

@@ -59,12 +59,12 @@ def test_the_walk_goes_from_the_least_sure_up_until_every_label_is_given(tmp_pat
     assert {one.source for one in project.labels(SECOND).labels.values()} == {"user"}
 
 
-@pytest.mark.parametrize("latency", [0, 300])
+@pytest.mark.parametrize("latency", [0, 400])
 def test_a_click_paints_look_alikes_and_labelling_all_at_once_sees_them(
     tmp_path: Path, browser: Browser, latency: int
 ) -> None:
     """Also while the strokes are still on their way to the server."""
-    project = four_legged(tmp_path, words=("alpha", "beta"))
+    project = four_legged(tmp_path, words=("alpha", "beta", "gamma"))
     legs = dict.fromkeys(LEGS, Label("beta"))
     with visiting(tmp_path, project, browser, latency=latency) as (studio, person):
         person.press("Alt+1", "2")
@@ -82,6 +82,8 @@ def test_a_click_paints_look_alikes_and_labelling_all_at_once_sees_them(
         person.sees(LABELLED)
         assert project.labels(FIRST).labels == {**legs, "top": Label("alpha")}
         person.sees("All that is there is used")
+        person.sees("gamma: no example, so no hull gets it.")
+        assert not person.page.locator("[class*=note-good]").count(), "nothing reassures"
         hello = studio.until(lambda hello: hello["project"]["propagation"] is not None)
         assert (hello["project"]["propagation"]["unused"], hello["history"]["undoable"]) == (0, 3)
         found = {name: one.name for name, one in project.labels(SECOND).labels.items()}

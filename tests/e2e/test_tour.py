@@ -64,6 +64,10 @@ def test_who_follows_the_tour_has_fourteen_right_tables_signed_off(tmp_path: Pat
         person.click("Apply to all")
         read.append(_mark(person, "Look, then export"))
         person.sees("Signed off 14 of 14")
+        person.press("Alt+2")
+        person.click("Find hulls that span parts")
+        person.sees("None: all hulls have labels from you or from files.")
+        assert _assessed(studio)["signed_off"] == 14
         assert not person.complaints
     _are_right(Project.open(next(tmp_path.rglob("meshforge.toml")).parent))
     count = sum(len(text.split()) for text in read)

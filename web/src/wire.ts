@@ -16,6 +16,7 @@ export type AnyEdit =
   | WriteProgram
   | CutHull
   | Unprepare
+  | DismissSpanning
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
@@ -64,6 +65,7 @@ export interface Everything {
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
+  DismissSpanning: DismissSpanning;
   DropManualEdits: DropManualEdits;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
@@ -448,6 +450,15 @@ export interface CutHull {
 export interface Unprepare {
   asset: string;
   kind: "unprepare";
+}
+/**
+ * Say of hulls, given by name for each asset, that they span no parts: they are not found again.
+ */
+export interface DismissSpanning {
+  kind: "dismiss-spanning";
+  hulls: {
+    [k: string]: string[];
+  };
 }
 /**
  * Accept the results of some assets, or call them wrong; null takes that back.
@@ -1148,7 +1159,7 @@ export interface Job {
 }
 /**
  * What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
- * picture: the key of that of a goal that fails.
+ * picture: the key of that of a goal that fails; body, hulls: one in which these hulls were found to span parts.
  */
 export interface JobLine {
   asset: string;
@@ -1156,6 +1167,8 @@ export interface JobLine {
   text: string;
   before: string[];
   picture: string | null;
+  body: string | null;
+  hulls: string[];
 }
 /**
  * The project as it is now.
@@ -1279,11 +1292,15 @@ export interface HullsOfAsset {
   positions: number[];
 }
 /**
- * Find the hulls of all assets that span parts, and rebuild their bodies. dry_run: only find them.
+ * Find the hulls of all assets that span parts, or rebuild some of their bodies. bodies: these by asset, null to
+ * find; every: whether they are all that were found, so that those of new assets are rebuilt likewise.
  */
 export interface RebuildJob {
   kind: "rebuild";
-  dry_run?: boolean;
+  bodies?: {
+    [k: string]: string[];
+  } | null;
+  every?: boolean;
 }
 /**
  * Label all hulls of the family from files, names, and the labels that there are, weighed together.

@@ -13,7 +13,8 @@ __getattr__, __all__ = export_lazily(
         "new_assets": "NewAsset NewAssetOptions list_new prepare_new_assets",
         "overview": "compute_status find_offers",
         "preparation_plan": (
-            "REBUILD_DEFAULTS DecompositionPlan RebuildSettings forget_plan read_piece_engine read_preparation_plan"
+            "REBUILD_DEFAULTS DecompositionPlan RebuildSettings forget_plan keep_rebuilt read_piece_engine "
+            "read_preparation_plan"
         ),
         "prepare": "PreparationResult",
         "project": "Project",

@@ -19,6 +19,7 @@ from meshforge.project.preparation_plan import REBUILD_DEFAULTS as REBUILD_DEFAU
 from meshforge.project.preparation_plan import DecompositionPlan as DecompositionPlan
 from meshforge.project.preparation_plan import RebuildSettings as RebuildSettings
 from meshforge.project.preparation_plan import forget_plan as forget_plan
+from meshforge.project.preparation_plan import keep_rebuilt as keep_rebuilt
 from meshforge.project.preparation_plan import read_piece_engine as read_piece_engine
 from meshforge.project.preparation_plan import read_preparation_plan as read_preparation_plan
 from meshforge.project.prepare import PreparationResult as PreparationResult

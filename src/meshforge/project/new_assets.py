@@ -22,7 +22,13 @@ from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.labeler import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_result import NewAssetResult
-from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
+from meshforge.project.preparation_plan import (
+    PreparationPlan,
+    RebuildSettings,
+    extend_plan,
+    find_new_assets,
+    read_dismissed,
+)
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.rebuild import Rebuild, plan_rebuild
 from meshforge.store import Layout, Store, hull_digests
@@ -58,13 +64,14 @@ class _WorkerOutcome:
 class _Task:
     """family: None where nothing is labelled; sources: by what hulls are labelled before likeness, None where they are
     not; rebuild: whether bodies are rebuilt; guess: whether hulls without a label get one; contact: the threshold, None
-    for the language's own."""
+    for the language's own; dismissed: hulls that a person said span no parts, by asset."""
 
     family: ReferenceFamily | None
     sources: FamilyLabelSources | None
     rebuild: bool
     guess: bool
     contact: float | None
+    dismissed: Mapping[str, Collection[str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +176,9 @@ def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOption
             store, options.execution, options.stage, engine or "coacd", without=without, spans=engine is not None
         )
     sources = FamilyLabelSources.of(store) if options.guess else None
-    return _Task(family, sources, options.rebuild, options.guess, store.settings.thresholds.contact)
+    return _Task(
+        family, sources, options.rebuild, options.guess, store.settings.thresholds.contact, read_dismissed(store)
+    )
 
 
 def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
@@ -189,7 +198,8 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         mesh, taken, notes_of_labels = _take_labels(task, work, _build_mesh(source, after, labels, task.contact))
         found = Rebuild(after)
         if work.plan.rebuild and mesh.hulls:
-            found = _rebuild(task, source, after, mesh, work.plan.rebuild)
+            dismissed = frozenset(task.dismissed.get(work.id, ()) if work.preparation else ())
+            found = _rebuild(task, source, after, mesh, work.plan.rebuild, dismissed)
             if found.bodies:
                 mesh = _build_mesh(source, found.after, labels, task.contact).with_labels(found.labels)
                 mesh, taken, _ = _take_labels(task, work, mesh)  # what is odd of hulls that are gone was said
@@ -231,12 +241,17 @@ def _decompose(
 
 
 def _rebuild(
-    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: RebuildSettings
+    task: _Task,
+    source: Asset,
+    before: batch.Preparation,
+    mesh: SymbolicMesh,
+    how: RebuildSettings,
+    dismissed: frozenset[str],
 ) -> Rebuild:
     """Rebuild bodies of which a hull surely spans parts, or only say which, as is asked for."""
     if task.family is None:
         return Rebuild(before, notes=(_NO_LABELS,))
-    found = plan_rebuild(task.family, source, before, mesh, how)
+    found = plan_rebuild(task.family, source, before, mesh, how, dismissed)
     lost = tuple(f"not compared with {asset}: {why}" for asset, why in task.family.lost.items())
     if task.rebuild:
         return replace(found, notes=(*lost, *found.notes))

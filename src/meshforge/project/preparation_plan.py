@@ -121,6 +121,19 @@ def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, rebu
     _change(store, values)
 
 
+def read_dismissed(store: Store) -> Mapping[str, Collection[str]]:
+    """Return the hulls of each asset that a person said span no parts."""
+    return _read(store).dismissed
+
+
+def dismiss_spanning(store: Store, hulls: Mapping[str, Collection[str]]) -> None:
+    """Keep that these hulls, by asset, span no parts: they are not found again."""
+    with store.lock():
+        before = read_dismissed(store)
+        added = {asset: tuple(sorted({*before.get(asset, ()), *names})) for asset, names in hulls.items()}
+        _change(store, {"dismissed": {**before, **added}})
+
+
 def read_piece_engine(store: Store) -> PieceEngine:
     """Return the engine of the fine pieces by which the hulls of all assets were looked at last, CoACD where they were
     not."""

@@ -11,7 +11,7 @@ from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names, write_atomically
 from meshforge.formats import DecomposeBy, read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder
-from meshforge.labels import NewHullLabels, label_new_hulls
+from meshforge.labels import HullSpan, NewHullLabels, label_new_hulls
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import HullMapping, describe_replaced
 from meshforge.project.preparation_plan import keep_decomposed
@@ -25,7 +25,8 @@ class PreparationResult:
 
     made: the pieces that got hulls now; notes: what that means for labels and demonstrations, and what was given up;
     problems: why a piece, or the whole asset, could not be prepared; undone: what was taken back, in words; planned:
-    what `made` would be, where nothing was to be written.
+    what `made` would be, where nothing was to be written; found: the hulls that span parts, whose
+    bodies are rebuilt.
     """
 
     asset: str
@@ -34,6 +35,7 @@ class PreparationResult:
     problems: tuple[str, ...] = ()
     undone: tuple[str, ...] = ()
     planned: tuple[batch.Replacement, ...] = ()
+    found: tuple[HullSpan, ...] = ()
 
     @property
     def hulls(self) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from meshforge.project import (
     learn,
     new_assets,
     overview,
+    preparation_plan,
     prepare,
     rebuild,
     rename,
@@ -75,6 +76,7 @@ class Project(Store):
     cut = prepare.cut
     unprepare = unprepare.unprepare
     rebuild_spanning = rebuild.rebuild_spanning
+    dismiss_spanning = preparation_plan.dismiss_spanning
     prepare_new = new_assets.prepare_new
 
     # Demonstrations

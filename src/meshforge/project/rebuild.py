@@ -3,10 +3,11 @@ labelled assets of the project alone, so that what is found of one does not depe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from glob import escape
 
 from meshforge import batch
 from meshforge.batch.preparation.decompose import matches_only
@@ -14,7 +15,7 @@ from meshforge.common import ProjectError, UsageError, describe_error, join_name
 from meshforge.formats import read
 from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
 from meshforge.labels.labeler import Stage, ignore_stage
-from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt
+from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt, read_dismissed
 from meshforge.project.prepare import PreparationResult, keep_preparation
 from meshforge.store import Store
 from meshforge.store.meshes import AssetFiles
@@ -35,6 +36,7 @@ def rebuild_spanning(
     assets: Iterable[str] | None = None,
     how: RebuildSettings = REBUILD_DEFAULTS,
     *,
+    bodies: Mapping[str, Collection[str]] | None = None,
     dry_run: bool = False,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
@@ -44,12 +46,15 @@ def rebuild_spanning(
     probability of at least `how.min_confidence`.
 
     Each asset gets one step, which `unprepare` takes back with labels and selections. assets: which may be rebuilt, all
-    when None. dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were
-    left. write_block: the block in which an asset's files are written.
+    when None; bodies: which of theirs, by asset, in place of `assets`. Hulls that were dismissed are left out.
+    dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were left. write_block: the
+    block in which an asset's files are written.
     Raises UsageError for a probability that is none, ProjectError where no hull has a label.
     """
     if not 0 < how.min_confidence <= 1:
         raise UsageError(f"--min-confidence {how.min_confidence:g}: a probability is needed, above 0 and at most 1")
+    if bodies is not None:
+        assets = [asset for asset, names in bodies.items() if names]
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
@@ -58,23 +63,29 @@ def rebuild_spanning(
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         problem = "no hull has a label, so nothing says what parts there are"
         raise ProjectError(problem, where=str(store.folder), remedy=remedy)
-    work = list(zip(ids, store.asset_files(ids), strict=True))
+    hows = [replace(how, only=tuple(map(escape, bodies[asset]))) if bodies else how for asset in ids]
+    dismissed = read_dismissed(store)
+    work = [
+        (asset, files, own, frozenset(dismissed.get(asset, ())))
+        for asset, files, own in zip(ids, store.asset_files(ids), hows, strict=True)
+    ]
     with stage(len(work), "looking for hulls that span parts") as advance:
-        found = batch.execute(partial(_search, family, how), work, replace(execution, progress=advance))
+        found = batch.execute(partial(_search, family), work, replace(execution, progress=advance))
         for asset, one in zip(ids, found, strict=True):
             if isinstance(one, batch.WorkerFailure | str):
                 problem = one if isinstance(one, str) else one.why
                 yield PreparationResult(asset, problems=(problem,))
             elif dry_run or not one.rebuild.bodies:
                 planned = one.rebuild.after.steps[-1].replaced if one.rebuild.bodies else ()
-                yield PreparationResult(asset, notes=one.notes, planned=planned)
+                yield PreparationResult(asset, notes=one.notes, planned=planned, found=one.rebuild.spans)
             else:
                 after, words = one.rebuild.after, store.vocabulary
                 labels = {name: label for name, label in one.rebuild.labels.items() if label.name in words}
                 with write_block(asset):
                     kept = keep_preparation(store, asset, after, one.seen, after.steps[-1].replaced, labels)
-                yield replace(kept, notes=(*kept.notes, *(() if kept.problems else one.notes)))
-    if not dry_run:
+                notes = (*kept.notes, *(() if kept.problems else one.notes))
+                yield replace(kept, notes=notes, found=one.rebuild.spans)
+    if not dry_run and bodies is None:
         keep_rebuilt(store, ids, how)
 
 
@@ -87,13 +98,15 @@ class _SearchResult:
     seen: str | None
 
 
-def _search(family: ReferenceFamily, how: RebuildSettings, work: tuple[str, AssetFiles]) -> _SearchResult | str:
-    asset, files = work
+def _search(
+    family: ReferenceFamily, work: tuple[str, AssetFiles, RebuildSettings, frozenset[str]]
+) -> _SearchResult | str:
+    asset, files, how, dismissed = work
     try:
         seen = batch.record_digest(files.preparation)
         before = batch.read_preparation(files.preparation) or batch.Preparation()
         source, mesh = read(files.path), files.read_mesh()
-        found = plan_rebuild(family.without(asset), source, before, mesh, how)
+        found = plan_rebuild(family.without(asset), source, before, mesh, how, dismissed)
         matches = any(_matches(hull.name, hull.body, how) for hull in mesh.hulls)
         missed = [] if matches else [f"no hull or body matches {join_names(how.only)}"]
         return _SearchResult(found, (*found.notes, *missed, *found.describe_left(how.min_confidence)), seen)
@@ -130,6 +143,11 @@ class Rebuild:
     notes: tuple[str, ...] = ()
 
     @property
+    def spans(self) -> tuple[HullSpan, ...]:
+        """The hulls that span parts, of all bodies that are made anew."""
+        return tuple(span for one in self.bodies for span in one.spans)
+
+    @property
     def labels(self) -> dict[str, Label]:
         """The labels of all new hulls, by name."""
         return {name: label for one in self.bodies for name, label in one.labels.items()}
@@ -145,12 +163,17 @@ class Rebuild:
 
 
 def plan_rebuild(
-    family: ReferenceFamily, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: RebuildSettings
+    family: ReferenceFamily,
+    source: Asset,
+    before: batch.Preparation,
+    mesh: SymbolicMesh,
+    how: RebuildSettings,
+    dismissed: frozenset[str] = frozenset(),
 ) -> Rebuild:
     """Return how bodies of an asset are made anew. source: the asset as it was read; before: what is prepared already;
-    mesh: it as it is prepared, with its labels."""
+    mesh: it as it is prepared, with its labels; dismissed: names of hulls that a person said span no parts."""
     report = family.find_spans(source, mesh)
-    notes, likely = tuple(report.notes), _find_likely(report, before, how)
+    notes, likely = tuple(report.notes), _find_likely(report, before, how, dismissed)
     spans = {span.hull: span for span in likely if span.chance >= how.min_confidence}
     bodies = dict.fromkeys(span.body for span in spans.values())
     made = {body: rows for body in bodies if (rows := report.rebuild(body))}
@@ -183,12 +206,15 @@ def plan_rebuild(
     return Rebuild(after, tuple(rebuilt), left, notes)
 
 
-def _find_likely(report: SpanReport, before: batch.Preparation, how: RebuildSettings) -> list[HullSpan]:
-    """The hulls that likely span parts, but for those that a rebuild made: another would make no better ones."""
+def _find_likely(
+    report: SpanReport, before: batch.Preparation, how: RebuildSettings, dismissed: frozenset[str]
+) -> list[HullSpan]:
+    """The hulls that likely span parts, but for those that a person dismissed, and those that a rebuild made: another
+    would make no better ones."""
     steps = (step for step in before.steps if "rebuilt" in step.settings)
     anew = {name for step in steps for entry in step.replaced for name in entry.made}
     least = min(LIKELY, how.min_confidence)
-    likely = (span for span in report.spans if span.chance >= least and span.hull not in anew)
+    likely = (span for span in report.spans if span.chance >= least and span.hull not in anew | dismissed)
     return [span for span in likely if _matches(span.hull, span.body, how)]
 
 

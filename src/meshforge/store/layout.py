@@ -220,7 +220,8 @@ class PreparationPlanFile(JsonFile):
     decomposed, rebuilt: the ids of the assets that were there when pieces of all were decomposed
     last, and when bodies of all of which hulls span parts were rebuilt last (which earlier versions called split); None
     where that was never done. min_confidence: the probability from which they were; pieces: the engine of their fine
-    pieces; only: which hulls and bodies, all where there are none.
+    pieces; only: which hulls and bodies, all where there are none; dismissed: hulls that a person said span no parts,
+    by asset.
     """
 
     decomposed: tuple[str, ...] | None = None
@@ -228,3 +229,4 @@ class PreparationPlanFile(JsonFile):
     min_confidence: float | None = Field(default=None, validation_alias=AliasChoices("min_confidence", "sure"))
     pieces: geometry.PieceEngine = "coacd"
     only: tuple[str, ...] = ()
+    dismissed: dict[str, tuple[str, ...]] = {}

@@ -1,6 +1,6 @@
 // What a person does while a program is learned: learn, choose readings, write the program.
 import { api } from "../server/api";
-import { perform } from "../store/edits";
+import { perform, sendAfterEdits } from "../store/edits";
 import { useProject } from "../store/project";
 import { findSeparatingAssets } from "../store/readings";
 import { reportError } from "../store/toasts";
@@ -9,7 +9,7 @@ import type { NearestView, CandidateView } from "../wire";
 import { commandsOf, needs } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
-export const learnNow = (): Promise<unknown> => api.learn().catch(reportError);
+export const learnNow = (): Promise<unknown> => sendAfterEdits(api.learn);
 export const stopLearning = (): Promise<unknown> => api.stopLearning().catch(reportError);
 
 /** Answers that a rule means another reading: what it selects where that distinguishes it from the others of the rule. */

@@ -10,7 +10,7 @@ import type { NextStep } from "../wire";
 import { commandFor } from "./list";
 import { goCommands } from "./navigate";
 
-vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn(), pendingEdits: vi.fn() }));
+vi.mock("../store/edits", () => ({ undo: vi.fn(), redo: vi.fn(), perform: vi.fn(), pendingEdits: vi.fn(), sendAfterEdits: (request: () => Promise<unknown>) => request() }));
 
 const plain = sampleCard({ hulls: 1, labels: [0] });
 const run = (key: string) => commandFor(key, goCommands)?.run();

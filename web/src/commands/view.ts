@@ -86,7 +86,7 @@ export const viewCommands = commandsOf("View", [
   lookCommand("iso", ["Numpad0"], isHere),
   { id: "fit", title: "Fit all into the view", keys: ["Home"], enabled: isHere, run: () => lookFrom("fit") },
   { id: "frame", title: "Frame the selection", keys: [".", "NumpadDecimal"], enabled: isHere, run: () => lookFrom("frame") },
-  { id: "projection", title: "Perspective or parallel projection", keys: ["O"], enabled: () => !useWorkspace.getState().sheet.length, run: switchProjection },
+  { id: "projection", title: "Perspective or parallel projection", keys: ["O"], enabled: needs("Assets side by side are always in parallel projection.", () => !useWorkspace.getState().sheet.length), run: switchProjection },
   toggleCommand("wireframe", "Wireframe", ["Z"]),
   toggleCommand("ghost", "Visual mesh as a ghost", ["V"]),
   toggleCommand("contacts", "Contact graph", ["C"]),

@@ -54,13 +54,14 @@ it("is one key in the stage of labels, which says where it cannot be done", asyn
   expect(useToasts.getState().toasts.at(-1)?.text).toBe("P labels all hulls in the Label stage (Alt+1).");
 });
 
-it("labels all hulls only when what was painted before is saved", async () => {
+it.each([true, false])("labels all hulls only when what was painted before is saved, and not where that is refused", async (saved) => {
   const asked: string[] = [];
   let save = (): void => undefined;
   vi.spyOn(api, "startJob").mockImplementation(async () => (asked.push("job"), job));
   vi.spyOn(api, "edit").mockImplementation(async () => {
     await new Promise<void>((pass) => (save = pass));
     asked.push("edit");
+    if (!saved) throw new Error("no");
     return { message: "", nothing: true };
   });
   useWorkspace.setState({ asset: "b", brush: "leg" });
@@ -70,6 +71,6 @@ it("labels all hulls only when what was painted before is saved", async () => {
   await vi.waitFor(() => expect(api.edit).toHaveBeenCalled());
   expect(asked).toEqual([]);
   save();
-  expect(await begun).toBe(true);
-  expect(asked).toEqual(["edit", "job"]);
+  expect(await begun).toBe(saved);
+  expect(asked).toEqual(saved ? ["edit", "job"] : ["edit"]);
 });

@@ -1,7 +1,7 @@
 // Long work that a person starts: labelling, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { Job, JobRequest } from "../wire";
-import { pendingEdits } from "./edits";
+import type { Job, JobLine, JobRequest } from "../wire";
+import { pendingEdits, perform, sendAfterEdits } from "./edits";
 import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
 import { labelProgress } from "./labelWalk";
@@ -41,15 +41,9 @@ export async function saveEdits(): Promise<void> {
 }
 
 /** Begins a job once the edits before it are saved; whether it could be begun. */
-async function startJob(request: JobRequest): Promise<boolean> {
-  await saveEdits();
-  try {
-    await api.startJob(request);
-    return true;
-  } catch (error) {
-    reportError(error);
-    return false;
-  }
+function startJob(request: JobRequest): Promise<boolean> {
+  endStroke();
+  return sendAfterEdits(() => api.startJob(request));
 }
 
 const applyJob = (assets: readonly string[] | null): JobRequest => ({
@@ -72,8 +66,23 @@ export function whyNotRebuild(): string | null {
   return isLabelled ? null : "Label the hulls of one or two assets first.";
 }
 
-/** Rebuilds the bodies of all assets of which a hull spans parts, or only finds these hulls. */
-export const rebuildBodies = (dry_run: boolean): Promise<boolean> => startJob({ kind: "rebuild", dry_run });
+/** Finds the hulls of all assets that span parts. */
+export const findSpanning = (): Promise<boolean> => startJob({ kind: "rebuild" });
+
+/** Rebuilds bodies in which hulls were found to span parts; every: whether they are all that were found. */
+export function rebuildBodies(found: readonly JobLine[], every: boolean): Promise<boolean> {
+  return startJob({ kind: "rebuild", bodies: byAsset(found, ({ body }) => (body === null ? [] : [body])), every });
+}
+
+/** Says of hulls that were found that they span no parts, so that they are not found again. */
+export const dismissSpanning = (found: readonly JobLine[]): Promise<boolean> =>
+  perform({ kind: "dismiss-spanning", hulls: byAsset(found, ({ hulls }) => hulls) });
+
+function byAsset(lines: readonly JobLine[], namesOf: (line: JobLine) => readonly string[]): Record<string, string[]> {
+  const out: Record<string, string[]> = {};
+  for (const line of lines) (out[line.asset] ??= []).push(...namesOf(line));
+  return out;
+}
 
 export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, signed_only });

@@ -1,5 +1,5 @@
 // Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
-import type { Card } from "../wire";
+import type { Card, VocabularyLabel } from "../wire";
 import { perform } from "./edits";
 import { byAsset, type HullPlace, placeOf } from "./hullPlaces";
 import { type Scene, useScenes } from "./scenes";
@@ -79,6 +79,12 @@ export function countLabels(cards: Readonly<Record<string, Card>>): ReadonlyMap<
   const counts = new Map<number, number>();
   for (const place of all.flatMap((card) => card.labels)) counts.set(place, (counts.get(place) ?? 0) + 1);
   return counts;
+}
+
+/** The labels of a vocabulary that no hull has; none as long as assets are being read. */
+export function labelsWithoutHull(cards: Readonly<Record<string, Card>>, vocabulary: readonly VocabularyLabel[]): string[] {
+  const counts = countLabels(cards);
+  return vocabulary.flatMap(({ name, is_class }, place) => (!counts || is_class || counts.has(place) ? [] : [name]));
 }
 
 /** The labels with those of a typed list added, which stand between commas; ones already there are left out. */

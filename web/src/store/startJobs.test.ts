@@ -2,12 +2,13 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { Job } from "../wire";
+import type { Job, JobLine } from "../wire";
 import {
   applyTo,
   cancelJob,
   checkAll,
   exportTo,
+  findSpanning,
   rebuildBodies,
   labelAll,
   makeHulls,
@@ -20,6 +21,7 @@ import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
 
 const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, doing: "", state, message: "", lines: [], out: null });
+const found = (asset: string, body: string): JobLine => ({ asset, body, status: "done", text: "", before: [], picture: null, hulls: [] });
 const set = (state: Partial<ProjectState>) => useProject.setState(state);
 const program = { ...emptyProject.program, text: "All => Delete" };
 const refusal = new ServerProblem({ message: "another job runs", where: null, remedy: "Stop it.", conflict: true }, 409);
@@ -41,16 +43,18 @@ describe("a job", () => {
     await applyTo(["a"]);
     await labelAll();
     await checkAll();
-    await rebuildBodies(true);
+    await findSpanning();
+    await rebuildBodies([found("a", "base"), found("a", "lid"), found("b", "base")], false);
     await exportTo("out", true);
     makeHulls(["a"]);
-    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(7));
+    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(8));
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
       { kind: "apply", assets: ["a"], rebuild: true },
       { kind: "label" },
       { kind: "check" },
-      { kind: "rebuild", dry_run: true },
+      { kind: "rebuild" },
+      { kind: "rebuild", bodies: { a: ["base", "lid"], b: ["base"] }, every: false },
       { kind: "export", folder: "out", signed_only: true },
       { kind: "decompose", assets: ["a"] },
     ]);

@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
+import { sendAfterEdits } from "./edits";
 import { notify, reportError, reportProblem } from "./toasts";
 
 /** A file, and where it lies in the folder that was given: `cabinets/a/robot.urdf`. */
@@ -74,15 +75,13 @@ function withCount(message: string, count: number): string {
 const unreadText = (first: string, count: number) =>
   count === 1 ? `One asset was left out: ${first}` : `${count} assets were left out; the first: ${first}`;
 
-async function takeAll(): Promise<void> {
-  try {
+function takeAll(): Promise<boolean> {
+  return sendAfterEdits(async () => {
     const { names, problems = [] } = await api.takeAssets();
     notify(names.length === 1 ? `Added ${names[0]}.` : `Added ${names.length} assets.`, true);
     const [first] = problems;
     if (first !== undefined) reportProblem({ where: null, message: unreadText(first, problems.length), remedy: "Send it again, together with all files that it names.", conflict: false });
-  } catch (error) {
-    reportError(error);
-  }
+  });
 }
 
 /** Files of the system, which lie beside what a person means: `.DS_Store`, `__MACOSX/…`. */

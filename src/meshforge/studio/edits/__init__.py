@@ -22,6 +22,7 @@ AnyEdit = Annotated[
     | program.WriteProgram
     | assets.CutHull
     | assets.Unprepare
+    | assets.DismissSpanning
     | assets.ReviewAssets
     | assets.ExcludeAssets
     | assets.CorrectByHand

@@ -98,6 +98,20 @@ class Unprepare(_PreparationEdit):
         project.unprepare(self.asset)
 
 
+class DismissSpanning(Edit):
+    """Say of hulls, given by name for each asset, that they span no parts: they are not found again."""
+
+    kind: Literal["dismiss-spanning"] = "dismiss-spanning"
+    touches = (Layout.preparation_plan,)
+    hulls: dict[str, tuple[str, ...]]
+
+    def apply(self, project: Project) -> None:
+        project.dismiss_spanning(self.hulls)
+
+    def describe(self, project: Project) -> str:
+        return f"{pluralize(sum(map(len, self.hulls.values())), 'hull')} left as found"
+
+
 class ReviewAssets(Edit):
     """Accept the results of some assets, or call them wrong; null takes that back.
 

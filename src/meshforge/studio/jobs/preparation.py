@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import groupby
 from typing import Literal
 from uuid import uuid4
 
@@ -14,13 +15,13 @@ from meshforge.labels import (
     Tally,
 )
 from meshforge.project import (
-    MADE_ANEW,
     REBUILD_DEFAULTS,
     SOURCE_WORDS,
     DecompositionPlan,
     PreparationResult,
     Project,
     RebuildSettings,
+    keep_rebuilt,
     read_piece_engine,
     read_preparation_plan,
 )
@@ -28,6 +29,7 @@ from meshforge.store import ConflictError, Layout
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import DecomposeJob, Job, JobLine, RebuildJob
+from meshforge.symbolic import GIVEN_SOURCES
 
 
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
@@ -74,12 +76,17 @@ def _decompose_line(result: PreparationResult) -> JobLine:
 def start_rebuild(session: Session, request: RebuildJob) -> Job:
     """Start to rebuild bodies of which hulls span parts, or only to find these; each asset is one edit, all are undone
     at once."""
-    project, group = session.project, uuid4().hex
+    project, group, bodies = session.project, uuid4().hex, request.bodies
+    session.check_assets(*(bodies or ()))
 
     def work(progress: JobProgress) -> str:
+        if bodies is None and _are_labels_given(project.tally_labels()):
+            return "None: all hulls have labels from you or from files."
+        how = RebuildSettings(pieces=read_piece_engine(project))
         results = project.rebuild_spanning(
-            how=RebuildSettings(pieces=read_piece_engine(project)),
-            dry_run=request.dry_run,
+            how=how,
+            bodies=bodies,
+            dry_run=bodies is None,
             execution=ExecutionOptions(stop=progress.is_stopped),
             stage=progress.stage,
             write_block=lambda asset: session.record_preparation(f"bodies of {asset} rebuilt", asset, group),
@@ -87,39 +94,51 @@ def start_rebuild(session: Session, request: RebuildJob) -> Job:
         found = list[PreparationResult]()
         for result in results:
             found.append(result)
-            if line := _rebuild_line(result):
+            for line in _rebuild_lines(result, bodies is not None):
                 progress.add_line(line)
-        if not request.dry_run:
-            session.update([relative_name(project.layout.preparation_plan, project.folder)])
+        if request.every and all(result.made for result in found):
+            keep_rebuilt(project, project.assets(), how)
+        session.update([relative_name(project.layout.preparation_plan, project.folder)])
         return _describe_rebuild(found)
 
-    title = "Looking for hulls that span parts" if request.dry_run else "Rebuilding bodies"
-    return session.jobs.start("rebuild", title, len(project.assets()), work, stays="what is rebuilt stays.")
+    title = "Looking for hulls that span parts" if bodies is None else "Rebuilding bodies"
+    count = len(project.assets() if bodies is None else bodies)
+    return session.jobs.start("rebuild", title, count, work, stays="what is rebuilt stays.")
 
 
-def _rebuild_line(result: PreparationResult) -> JobLine | None:
-    """What was found of one asset, and what of it could not be looked at; None where there is nothing to tell."""
-    entries = result.made or result.planned
-    texts = [*result.problems, *(entry.remark for entry in entries if entry.remark != MADE_ANEW), *result.notes]
-    if not texts:
-        return None
-    status: Literal["failed", "done", "skipped"] = "failed" if result.problems else "done" if entries else "skipped"
-    return JobLine(asset=result.asset, status=status, text="; ".join(texts))
+def _are_labels_given(tally: Tally) -> bool:
+    """Whether people and files labelled every hull, so that each is of one part."""
+    return not (tally.unlabelled or tally.unreadable) and all(one.source in GIVEN_SOURCES for one in tally.shares)
+
+
+def _rebuild_lines(result: PreparationResult, was_asked: bool) -> Iterator[JobLine]:
+    """What was found of one asset, a line a body, and what of it could not be looked at; was_asked: whether bodies of
+    it were to be rebuilt."""
+    asset, texts = result.asset, [*result.problems, *result.notes]
+    if not was_asked:
+        for body, spans in groupby(sorted(result.found, key=lambda one: one.body), key=lambda one: one.body):
+            own = tuple(spans)
+            hulls = tuple(span.hull for span in own)
+            yield JobLine(asset=asset, status="skipped", text="; ".join(map(str, own)), body=body, hulls=hulls)
+    elif not result.problems:
+        texts = ["; ".join(map(str, result.found)) or "no hull spans parts any more: left as it is", *texts]
+    if texts:
+        status: Literal["failed", "done", "skipped"]
+        status = "failed" if result.problems else "done" if result.made else "skipped"
+        yield JobLine(asset=asset, status=status, text="; ".join(texts))
 
 
 def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
-    made = [result for result in results if result.made]
-    planned = [result for result in results if result.planned]
+    made, found = ([one for one in results if getattr(one, what)] for what in ("made", "found"))
     lost = sum(bool(result.problems) for result in results)
     left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
     if made:
         hulls = pluralize(sum(len(result.hulls) for result in made), "hull")
         return f"Bodies of {pluralize(len(made), 'asset')} rebuilt: {hulls}.{left}"
-    if planned:
-        spanning = sum(entry.remark != MADE_ANEW for result in planned for entry in result.planned)
-        noun = "spans" if spanning == 1 else "span"
-        return f"{pluralize(spanning, 'hull')} of {pluralize(len(planned), 'asset')} {noun} parts.{left}"
-    return f"No hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
+    if found:
+        hulls = pluralize(sum(len(result.found) for result in found), "hull")
+        return f"{hulls} of {pluralize(len(found), 'asset')} may span parts. Nothing is changed.{left}"
+    return f"None: no hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
 
 
 def start_label(session: Session) -> Job:

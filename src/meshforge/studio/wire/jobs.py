@@ -11,13 +11,15 @@ JobStatus = Literal["done", "edited", "unchanged", "failed", "skipped"]
 
 class JobLine(Wire):
     """What became of one asset in a job. before: what was done to a new asset before the program, in sentences;
-    picture: the key of that of a goal that fails."""
+    picture: the key of that of a goal that fails; body, hulls: one in which these hulls were found to span parts."""
 
     asset: str
     status: JobStatus
     text: str = ""
     before: tuple[str, ...] = ()
     picture: str | None = None
+    body: str | None = None
+    hulls: tuple[str, ...] = ()
 
 
 class Job(Wire):
@@ -60,10 +62,12 @@ class DecomposeJob(Wire):
 
 
 class RebuildJob(Wire):
-    """Find the hulls of all assets that span parts, and rebuild their bodies. dry_run: only find them."""
+    """Find the hulls of all assets that span parts, or rebuild some of their bodies. bodies: these by asset, null to
+    find; every: whether they are all that were found, so that those of new assets are rebuilt likewise."""
 
     kind: Literal["rebuild"] = "rebuild"
-    dry_run: bool = False
+    bodies: dict[str, tuple[str, ...]] | None = None
+    every: bool = False
 
 
 class ExportJob(Wire):

@@ -1,14 +1,15 @@
 // The way to get labels other than by hand, with what it would use.
 import { ArrowRight, Square, Waypoints } from "lucide-react";
-import { type ReactNode } from "react";
+import { type ReactNode, useMemo } from "react";
 import { cancelJob, labelAll, useJob, whyNotLabel } from "../../store/jobs";
+import { labelsWithoutHull } from "../../store/labels";
 import { useFreshSources, useLabelSources } from "../../store/labelSources";
 import { labelProgress } from "../../store/labelWalk";
 import { useProject } from "../../store/project";
 import { capitalize, countText, shortName } from "../../store/words";
 import { openAsset } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { Section } from "../../ui/Section";
+import { Note, Section } from "../../ui/Section";
 import type { Job } from "../../wire";
 import { JobLines, JobNote } from "../review/JobProgress";
 import css from "./getLabels.module.css";
@@ -60,6 +61,8 @@ function LabelReady({ job }: { job: Job | null }) {
   const why = useProject(whyNotLabel);
   const propagation = useProject((state) => state.project.propagation);
   const there = useSourceTexts();
+  const [cards, vocabulary] = [useProject((state) => state.cards), useProject((state) => state.project.vocabulary)];
+  const missing = useMemo(() => labelsWithoutHull(cards, vocabulary), [cards, vocabulary]);
   const label = (
     <Button
       look={why === null && there.length > 0 ? "primary" : "plain"}
@@ -78,7 +81,8 @@ function LabelReady({ job }: { job: Job | null }) {
   const isPresent = job?.state !== "done" || (propagation && !propagation.unused);
   return (
     <SourceRow text={why ?? (there.join(", ") || "All that is there is used")} action={label}>
-      {job && isPresent && <JobNote job={job} />}
+      {job && isPresent && <JobNote job={job} doubtful={missing.length > 0} />}
+      {propagation && missing.length > 0 && <Note mood="warn">{missing.map((name) => `${name}: no example, so no hull gets it.`).join(" ")}</Note>}
       {job && isPresent && <JobLines lines={lost} />}
       {propagation?.next && (
         <Button look="quiet" icon={ArrowRight} onClick={() => openAsset(propagation.next)} tip="It helps most if you label it">

@@ -1,9 +1,10 @@
 // The hulls that a question is about, each in its place on its asset; exceptions get another label, or are left out.
-import { type MouseEvent, useMemo } from "react";
+import type { MouseEvent } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { exceptionOf, type Exceptions, keyOf } from "../../store/assessment";
 import { findOwnParts } from "../../store/commonParts";
 import { useOwnNames, useProject } from "../../store/project";
+import { oncePer } from "../../store/once";
 import { countText } from "../../store/words";
 import { visit } from "../../store/workspace";
 import { Name } from "../../ui/Name";
@@ -52,7 +53,7 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
                   aria-label={`Open ${asset} with ${one.hull} selected`}
                   onClick={() => visit(asset, { kind: "source" }, [one.hull])}
                 >
-                  {hulls.length > FEW ? <Thumbnail asset={asset} of="source" highlight={[one.place]} label="" /> : <InSight asset={asset} hull={one.hull} />}
+                  {hulls.length > FEW ? <Thumbnail asset={asset} of="source" highlight={[one.place]} label="" /> : <InSight asset={asset} names={namesOf(one)} />}
                   {own.length > 1 && <span className={css.where}>{shortOf(one.hull)}</span>}
                 </button>
                 {canVary && (
@@ -75,9 +76,10 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
 
 type HullInQuestion = ReviewQuestionView["hulls"][number];
 
-/** An asset from a side where a hull is seen, or through what hides it. */
-function InSight({ asset, hull }: { asset: string; hull: string }) {
-  const names = useMemo(() => [hull], [hull]);
+const namesOf = oncePer((one: HullInQuestion) => [one.hull]);
+
+/** An asset from a side where the hulls in question are seen, or through what hides them. */
+export function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
   return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
 }
 

@@ -1,9 +1,8 @@
 // What is said where there is nothing to see: loading, a problem, no hulls, no three-dimensional drawing.
 import { useEffect, useState } from "react";
-import { api } from "../../server/api";
+import { makeHulls } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { useScenes } from "../../store/scenes";
-import { reportError } from "../../store/toasts";
 import { Button } from "../../ui/Button";
 import css from "./overlay.module.css";
 
@@ -45,7 +44,7 @@ function Loading() {
 function NoHulls({ asset }: { asset: string }) {
   const sources = useProject(({ cards }) => cards[asset]?.sources ?? 0);
   const edited = useScenes(({ scene }) => scene?.edit != null);
-  const make = () => void api.startJob({ kind: "decompose", assets: [asset] }).catch(reportError);
+  const make = () => makeHulls([asset]);
   return (
     <div className={css.message}>
       <h3>No hulls</h3>
