@@ -1,5 +1,5 @@
-"""The pictures of the studio's start page: a table before and after, and an asset of each bundled family; transparent, so
-that they stand on light and on dark.
+"""The pictures of the studio's start page: a table before and after, and an asset of each bundled family; transparent,
+so that they stand on light and on dark.
 
 `python -m script.start_pictures` draws them into web/src/start/pictures, less than 60 kB in all.
 """

@@ -16,7 +16,7 @@ __getattr__, __all__ = export_lazily(
             "REBUILD_DEFAULTS DecompositionPlan RebuildSettings forget_plan read_piece_engine read_preparation_plan"
         ),
         "prepare": "PreparationResult",
-        "project": "Project",
+        "project": "Project create_tour_project",
         "rebuild": "MADE_ANEW",
         "rename": "list_renamed_files",
         "replies": "has_agreed_labels",
