@@ -60,9 +60,7 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
                 progress.add_line(_decompose_line(result))
         made = pluralize(sum(len(result.hulls) for result in done), "hull")
         copies = count_copies(entry for result in done for entry in result.made)
-        alike = (
-            f" {pluralize(copies, 'equal copy', 'equal copies')} of other pieces got the same hulls." if copies else ""
-        )
+        alike = f" {pluralize(copies, 'equal copy', 'equal copies')} got the hulls of the first." if copies else ""
         return f"{made} made for {pluralize(len(assets), 'asset')}.{alike}"
 
     title = f"Decomposing {pluralize(len(assets), 'asset')}"
@@ -90,9 +88,8 @@ def start_preview(session: Session, request: PreviewJob) -> Job:
         text += f"; {pluralize(len(request.assets), 'asset')}: about {max(rate * others, 1):.0f} s."
         return text + "".join(f" {lost.what}: {lost.why}." for lost in found.failed)
 
-    return session.jobs.start(
-        "preview", f"Trying {asset}", _count_sources(session, [asset]), work, stays="no hull was kept."
-    )
+    total = _count_sources(session, [asset])
+    return session.jobs.start("preview", f"Trying {asset}", total, work, stays="no hull was kept.")
 
 
 def _count_sources(session: Session, assets: Iterable[str]) -> int:
