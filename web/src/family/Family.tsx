@@ -2,8 +2,9 @@
 // of them, and the cards.
 import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
 import { useShown } from "../store/family";
-import { makeHulls, useIsDecomposing } from "../store/jobs";
-import { oncePerFamily, useProject } from "../store/project";
+import { listBare, openDecompose } from "../store/decompose";
+import { useIsDecomposing } from "../store/jobs";
+import { useProject } from "../store/project";
 import { setLayout, useLayout } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { AddMenu } from "./AddAssets";
@@ -88,18 +89,17 @@ function ReadProgress() {
   );
 }
 
-const listBare = oncePerFamily((cards) => cards.filter((card) => card.hulls === 0 && card.sources > 0).map((card) => card.asset));
-
 /** Assets that have geometry, yet no hulls: making them. */
 function MissingHulls() {
   const assets = useProject((state) => listBare(state.cards));
   const making = useIsDecomposing();
-  if (!assets.length || making) return null;
+  const [first] = assets;
+  if (first === undefined || making) return null;
   return (
     <div className={css.notice}>
       <span>{assets.length === 1 ? "One asset has no hulls." : `${assets.length} assets have no hulls.`}</span>
-      <Button icon={Boxes} onClick={() => makeHulls(assets)}>
-        Make them
+      <Button icon={Boxes} onClick={() => openDecompose(first)}>
+        Make them…
       </Button>
     </div>
   );

@@ -1,6 +1,6 @@
 // Long work that a person starts: labelling, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { Job, JobRequest } from "../wire";
+import type { DecomposeOptions, Job, JobRequest } from "../wire";
 import { pendingEdits } from "./edits";
 import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
@@ -8,6 +8,7 @@ import { labelProgress } from "./labelWalk";
 import { useRebuildChoice } from "./newAssets";
 import { useProject } from "./project";
 import { reportError } from "./toasts";
+import { countText, durationText } from "./words";
 
 const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
 
@@ -41,14 +42,16 @@ export async function saveEdits(): Promise<void> {
 }
 
 /** Begins a job once the edits before it are saved; whether it could be begun. */
-async function startJob(request: JobRequest): Promise<boolean> {
+const startJob = async (request: JobRequest): Promise<boolean> => (await beginJob(request)) !== null;
+
+/** The same; gives its id, null where it could not be begun. */
+async function beginJob(request: JobRequest): Promise<string | null> {
   await saveEdits();
   try {
-    await api.startJob(request);
-    return true;
+    return (await api.startJob(request)).id;
   } catch (error) {
     reportError(error);
-    return false;
+    return null;
   }
 }
 
@@ -99,7 +102,16 @@ export function useJob(kind: Job["kind"]): Job | null {
   return useProject((state) => state.jobs.findLast((job) => job.kind === kind) ?? null);
 }
 
-export const makeHulls = (assets: string[]): void => void startJob({ kind: "decompose", assets });
+export const makeHulls = (assets: readonly string[], options: DecomposeOptions): void => void startJob({ kind: "decompose", assets: [...assets], ...options });
+
+/** Makes the hulls of one asset and keeps none; the id of the job, null where it could not be begun. */
+export const tryHulls = (asset: string, assets: string[], options: DecomposeOptions): Promise<string | null> => beginJob({ kind: "preview", asset, assets, ...options });
+
+/** How far a job is: `23 of 61 pieces, about 40 s left`. */
+export function progressText({ kind, done, total, left }: Job, unit = kind === "decompose" || kind === "preview" ? "piece" : ""): string {
+  const all = unit ? countText(total, unit) : total.toLocaleString("en-GB");
+  return `${done.toLocaleString("en-GB")} of ${all}${left === null || left === undefined || left < 1 ? "" : `, about ${durationText(left)} left`}`;
+}
 
 /** Whether an asset is waiting for hulls to be made. */
 export const useIsDecomposing = () => useProject(({ jobs }) => isRunning(jobs, "decompose"));
