@@ -27,20 +27,25 @@ export function Intro() {
           <div>
             <Button look="primary" type="submit" icon={Play} disabled={busy || !folder.trim()}>
               Take the guided tour
-            </Button>{" "}
-            <span className={css.dim}>five minutes on 14 bundled tables</span>
+            </Button>
           </div>
-          <label className={css.pathRow}>
-            <span className={css.dim}>in the new folder</span>
+          <label className={css.tourRow}>
+            <span>Five minutes on 14 tables, in the new folder</span>
             <input className={css.field} aria-label="Folder of the tour" value={folder} spellCheck={false} autoComplete="off" onChange={(event) => setTyped(event.target.value)} />
           </label>
           <ProblemNote place="tour" />
         </form>
       </div>
       <figure className={css.figure}>
-        <img src={before} alt="A table of 43 hulls, as CoACD cut it" />
+        <span>
+          <img src={before} alt="A table in many pieces" />
+          36 hulls, as CoACD cut it
+        </span>
         <ArrowRight size={20} aria-hidden />
-        <img src={after} alt="The same table of 19 hulls: one top, four legs, a drawer that is open" />
+        <span>
+          <img src={after} alt="The same table: one top, four legs, a drawer that is open" />
+          21 hulls, by five rules
+        </span>
       </figure>
     </section>
   );

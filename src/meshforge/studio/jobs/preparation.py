@@ -108,6 +108,7 @@ def _count_pieces(progress: JobProgress) -> Iterator[tuple[Path, ExecutionOption
             return progress.is_stopped()
 
         yield Path(name), ExecutionOptions(stop=is_stopped)
+        is_stopped()
 
 
 def choose_decomposition(project: Project, request: DecomposeOptions) -> DecompositionPlan:

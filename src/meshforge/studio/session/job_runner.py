@@ -75,7 +75,7 @@ class JobProgress:
     def end(self, state: str, message: str, out: str | None = None) -> None:
         """End the job."""
         with self._lock:
-            self._job = self._job.model_copy(update={"state": state, "message": message, "out": out})
+            self._job = self._job.model_copy(update={"state": state, "message": message, "out": out, "left": None})
             self._send(at_once=True)
 
     def _send(self, at_once: bool = False) -> None:
