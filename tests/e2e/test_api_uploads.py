@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -41,24 +41,32 @@ def test_assets_that_are_dropped_belong_to_the_project(studio: Studio, folder: P
     assert len(studio.settled()["cards"]) == len(FEW)
 
 
-BAD: dict[str, Callable[[Studio], object]] = {
-    "no asset": lambda s: s.put("/api/assets", b"hello", path="readme.txt"),
-    "parts elsewhere": lambda s: s.put(
-        "/api/assets",
-        b"<robot name='r'><link name='a'><collision><geometry><mesh filename='../../../../../assets/table_01.obj'/>"
-        b"</geometry></collision></link></robot>",
-        path="r.urdf",
+ROBOT = "<robot name='r'><link name='a'><{0}><geometry><mesh filename='{1}'/></geometry></{0}></link></robot>"
+MODEL = (
+    "<mujoco><asset><mesh file='base.stl'/><mesh file='a/lid.stl'/></asset><worldbody><geom type='box' size='1 1 1'/>"
+    "<geom type='mesh' mesh='base'/></worldbody></mujoco>"
+)
+CHAIR = (TABLES.parent / "chairs" / "child_chair.gltf").read_text()
+LOST = "{} refers to {} not dropped: {}: drop the folder"
+BAD = {
+    "readme.txt": ("hello", "there is no asset among these files"),
+    "r.urdf": (
+        ROBOT.format("collision", "../../../../../assets/table_01.obj"),
+        LOST.format("r.urdf", "1 file that was", "../../../../../assets/table_01.obj"),
     ),
+    "seen.urdf": (ROBOT.format("visual", "v.stl"), LOST.format("seen.urdf", "1 file that was", "v.stl")),
+    "m.xml": (MODEL, LOST.format("m.xml", "2 files that were", "base.stl, a/lid.stl")),
+    "c.gltf": (CHAIR, LOST.format("c.gltf", "1 file that was", "child_chair.bin")),
 }
 
 
-@pytest.mark.parametrize("what", BAD)
-def test_uploads_that_cannot_be_read_are_thrown_away_with_a_message(studio: Studio, what: str, folder: Path) -> None:
-    BAD[what](studio)
+@pytest.mark.parametrize("path", BAD)
+def test_uploads_that_cannot_be_read_are_thrown_away_with_a_message(studio: Studio, path: str, folder: Path) -> None:
+    text, message = BAD[path]
+    studio.put("/api/assets", text.encode(), path=path)
     answer = studio.post("/api/assets")
     assert answer.status_code == 400, answer.text
-    assert answer.json()["message"] and answer.json()["remedy"]
-    assert str(folder) not in answer.json()["message"]
+    assert answer.json()["message"] == message and answer.json()["remedy"]
     assert not (folder / "assets" / "added").exists()
     assert not (folder / "project" / ".meshforge" / "studio" / "uploads").exists()
     assert len(studio.settled()["cards"]) == len(FEW)

@@ -33,8 +33,8 @@ export type Event =
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | CheckJob;
-export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
+export type JobRequest = ApplyJob | DecomposeJob | PreviewJob | RebuildJob | ExportJob | LabelJob | CheckJob;
+export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily | ProjectOfTour;
 
 export interface Everything {
   ActionCall: ActionCall;
@@ -64,6 +64,7 @@ export interface Everything {
   CoverageView: CoverageView;
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
+  DecomposeOptions: DecomposeOptions;
   DeleteRule: DeleteRule;
   DismissSpanning: DismissSpanning;
   DropManualEdits: DropManualEdits;
@@ -114,6 +115,7 @@ export interface Everything {
   OrientView: OrientView;
   OutcomeChanged: OutcomeChanged;
   OutcomeView: OutcomeView;
+  PreviewJob: PreviewJob;
   PreviewRequest: PreviewRequest;
   Problem: Problem;
   ProgramChanged: ProgramChanged;
@@ -122,6 +124,7 @@ export interface Everything {
   ProjectChanged: ProjectChanged;
   ProjectOfFamily: ProjectOfFamily;
   ProjectOfFolder: ProjectOfFolder;
+  ProjectOfTour: ProjectOfTour;
   ProjectOfUpload: ProjectOfUpload;
   ProjectView: ProjectView;
   PropagationState: PropagationState;
@@ -806,15 +809,27 @@ export interface CoverageView {
   };
 }
 /**
- * Make hulls for pieces and bodies that have none; method: the tool that makes them, null for what made those of
- * the project's other assets, else CoACD; by: of each piece as a whole, or of each of its parts by itself, where these
- * are known.
+ * Make hulls for pieces and bodies that have none.
  */
 export interface DecomposeJob {
-  kind: "decompose";
-  assets: string[];
   method?: ("coacd" | "vhacd") | null;
   by?: "whole" | "parts";
+  most?: number | null;
+  threshold?: number | null;
+  kind: "decompose";
+  assets: string[];
+}
+/**
+ * How hulls are made of what has none. method: the tool that makes them, null for what made those of the project's
+ * other assets, else CoACD, whatever the rest says; by: of each piece as a whole, or of each of its parts by itself,
+ * where these are known; most: hulls of a piece; threshold: of CoACD, the concavity at which splitting stops; null is
+ * what the tool takes by itself.
+ */
+export interface DecomposeOptions {
+  method?: ("coacd" | "vhacd") | null;
+  by?: "whole" | "parts";
+  most?: number | null;
+  threshold?: number | null;
 }
 /**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
@@ -878,17 +893,20 @@ export interface Start {
   start: StartView;
 }
 /**
- * What the start page shows. places: folders to begin looking for assets in.
+ * What the start page shows. places: folders to begin looking for assets in; tour: the folder that is offered for
+ * the project of the guided tour.
  */
 export interface StartView {
   version: string;
   recent: RecentProject[];
   families: FamilyOffer[];
   places: string[];
+  tour: string;
 }
 /**
  * A project that was open before. assets: how many it had then; opened: when, as ISO 8601; gone: whether there is
- * no project in that folder any more.
+ * no project in that folder any more; state: how far it was then, or why it cannot be read now, empty where that is
+ * not known; picture: the name of one of its thumbnails, empty where there is none.
  */
 export interface RecentProject {
   folder: string;
@@ -896,6 +914,8 @@ export interface RecentProject {
   assets: number;
   opened: string;
   gone: boolean;
+  state: string;
+  picture: string;
 }
 /**
  * A bundled family. about: what it is, in a line; project: the folder that is offered for it.
@@ -1141,17 +1161,19 @@ export interface Reach {
 }
 /**
  * Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
- * lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
+ * left: [s] that they may still take at this rate, null where that is not known; lines: what became of assets, at
+ * most 200: those that failed first, then those that were prepared before.
  *
  * message: its result in a sentence; out: the folder that was written.
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "rebuild" | "export" | "add" | "label" | "check" | "goal";
+  kind: "read" | "apply" | "decompose" | "preview" | "rebuild" | "export" | "add" | "label" | "check" | "goal";
   title: string;
   done: number;
   total: number;
   doing: string;
+  left: number | null;
   state: "running" | "done" | "failed" | "cancelled";
   message: string;
   lines: JobLine[];
@@ -1261,8 +1283,8 @@ export interface Guess {
   error: string | null;
 }
 /**
- * What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it has;
- * done: how many changes of the project are done after it.
+ * What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it
+ * has; done: how many changes of the project are done after it.
  */
 export interface HistoryAct {
   title: string;
@@ -1290,6 +1312,18 @@ export interface HullsOfAsset {
   asset: string;
   hulls: string[];
   positions: number[];
+}
+/**
+ * Make the hulls of one asset to be looked at, and keep none. assets: those that they may be made for then.
+ */
+export interface PreviewJob {
+  method?: ("coacd" | "vhacd") | null;
+  by?: "whole" | "parts";
+  most?: number | null;
+  threshold?: number | null;
+  kind: "preview";
+  asset: string;
+  assets: string[];
 }
 /**
  * Find the hulls of all assets that span parts, or rebuild some of their bodies. bodies: these by asset, null to
@@ -1325,16 +1359,14 @@ export interface Mark {
   message: string;
 }
 /**
- * Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
- * tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
- * parts by itself, where these are known.
+ * Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: how
+ * hulls are made of what has none, null to leave it as it is.
  */
 export interface ProjectOfFolder {
   kind: "folder";
   folder: string;
   project: string;
-  decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts";
+  decompose?: DecomposeOptions | null;
 }
 /**
  * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
@@ -1342,8 +1374,7 @@ export interface ProjectOfFolder {
 export interface ProjectOfUpload {
   kind: "upload";
   project: string;
-  decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts";
+  decompose?: DecomposeOptions | null;
 }
 /**
  * Make a project of a bundled family, whose files are written into its own folder.
@@ -1351,6 +1382,13 @@ export interface ProjectOfUpload {
 export interface ProjectOfFamily {
   kind: "family";
   family: string;
+  project: string;
+}
+/**
+ * Make the project of the guided tour: the bundled tables with their labels.
+ */
+export interface ProjectOfTour {
+  kind: "tour";
   project: string;
 }
 /**

@@ -15,8 +15,8 @@ from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, quote_path
-from meshforge.project import Project, add_result_status, format_status
-from meshforge.samples import TABLES, family_of, write_family
+from meshforge.project import Project, add_result_status, create_tour_project, format_status
+from meshforge.samples import TABLES
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
 
@@ -24,7 +24,6 @@ DEMO_MARK = ".meshforge-demo"
 """The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
 STUDIO_MARK = ".meshforge-demo-studio"
 """The mark of a folder that a demo in the studio made; what a person did there stays."""
-TABLE_ORIENT = "+Z: Is(leg) -> Is(panel)"
 
 
 def demo(
@@ -109,7 +108,7 @@ def create_tables(out: Path) -> Project:
     Raises UsageError where the folder holds something else.
     """
     _empty_folder(out, DEMO_MARK)
-    project = _create_project(out)
+    project = create_tour_project(out / "project", out / "assets")
     shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
     return project
 
@@ -123,7 +122,7 @@ def open_tables(out: Path) -> Project:
     if whole.exists() and whole.read_text(encoding="utf-8"):
         return Project.open(out / "project")
     _empty_folder(out, STUDIO_MARK)
-    project = _create_project(out)
+    project = create_tour_project(out / "project", out / "assets")
     whole.write_text("whole\n", encoding="utf-8")  # from now on it is a person's
     return project
 
@@ -135,13 +134,3 @@ def _empty_folder(out: Path, mark: str) -> None:
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     (out / mark).touch()
-
-
-def _create_project(out: Path) -> Project:
-    tables = family_of("tables")
-    write_family(tables, out / "assets")
-    labels, pattern = tables.vocabulary, out / "assets" / tables.pattern
-    project = Project.create(out / "project", [pattern], name=tables.name, vocabulary=labels, orient=TABLE_ORIENT)
-    shutil.copytree(TABLES / "templates", project.folder / "templates")
-    project.label("file")
-    return project

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from meshforge.batch import ExecutionOptions
+from meshforge.batch import ExecutionOptions, Replacement
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
@@ -25,7 +25,7 @@ from meshforge.project import (
     forget_plan,
     format_next,
 )
-from meshforge.project.prepare import count_pieces
+from meshforge.project.prepare import count_copies, count_pieces
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,15 +165,17 @@ def decompose_assets(
 
 def print_results(project: Project, results: Iterable[PreparationResult], json: bool = False) -> int:
     """Print what became of assets, and what writes it; 1 where one has a problem, else 0."""
-    failed = has_made = False
+    failed, made = False, list[Replacement]()
     for result in results:
         failed |= bool(result.problems)
-        has_made |= bool(result.made)
+        made += result.made
         if json:
             print_json(asdict(result) | {"hulls": list(result.hulls)}, compact=True)
         else:
             _print_one(result)
-    if has_made and not json:
+    if copies := 0 if json else count_copies(made):
+        typer.echo(f"{pluralize(copies, 'equal copy', 'equal copies')} got the hulls of the first")
+    if made and not json:
         is_old, has_program = project.program_state().outdated, project.layout.program.exists()
         remark(format_next("forgot" if is_old else "prepared" if has_program else "prepared all", project.folder))
     return int(failed)

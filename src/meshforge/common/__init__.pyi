@@ -24,6 +24,7 @@ from meshforge.common.messages import DemonstrationError as DemonstrationError
 from meshforge.common.messages import GeometryError as GeometryError
 from meshforge.common.messages import HullNotFoundError as HullNotFoundError
 from meshforge.common.messages import MeshForgeError as MeshForgeError
+from meshforge.common.messages import MissingFilesError as MissingFilesError
 from meshforge.common.messages import PluginError as PluginError
 from meshforge.common.messages import ProgramError as ProgramError
 from meshforge.common.messages import ProjectError as ProjectError

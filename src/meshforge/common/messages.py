@@ -157,6 +157,19 @@ class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
 
 
+class MissingFilesError(AssetError):
+    """An asset that refers to files that are not there. missing: the references, as written."""
+
+    def __init__(
+        self, problem: str, *, missing: Iterable[str] = (), where: str | None = None, remedy: str | None = None
+    ) -> None:
+        self.missing = tuple(missing)
+        super().__init__(problem, where=where, remedy=remedy)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(type(self), missing=self.missing, where=self.where, remedy=self.remedy), (self.problem,)
+
+
 class CollisionLossError(AssetError):
     """A format that cannot hold what collides in an asset."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, MeshForgeError, file_digest
+from meshforge.common import AssetError, MeshForgeError, MissingFilesError, file_digest
 from meshforge.formats import collision_pieces
 from meshforge.formats.collision_pieces import CollisionElement, CollisionPiece, ShapeNames, name_elements
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
@@ -271,4 +271,5 @@ def _refuse_missing(uses: Sequence[_MeshUse]) -> None:
         first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
         shown = first.reference if len(first.reference) <= _SHOWN else f"{first.reference[:_SHOWN]}..."
         problem = f"the mesh {shown!r} of collision {first.label!r} is not there{others}"
-        raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
+        remedy, lost = first.resolver.advice(first.reference), dict.fromkeys(use.reference for use in missing)
+        raise MissingFilesError(problem, missing=lost, where=first.place, remedy=remedy)

@@ -17,7 +17,7 @@ __getattr__, __all__ = export_lazily(
             "read_preparation_plan"
         ),
         "prepare": "PreparationResult",
-        "project": "Project",
+        "project": "Project create_tour_project",
         "rebuild": "MADE_ANEW",
         "rename": "list_renamed_files",
         "replies": "has_agreed_labels",

@@ -24,6 +24,7 @@ from meshforge.project.preparation_plan import read_piece_engine as read_piece_e
 from meshforge.project.preparation_plan import read_preparation_plan as read_preparation_plan
 from meshforge.project.prepare import PreparationResult as PreparationResult
 from meshforge.project.project import Project as Project
+from meshforge.project.project import create_tour_project as create_tour_project
 from meshforge.project.rebuild import MADE_ANEW as MADE_ANEW
 from meshforge.project.rename import list_renamed_files as list_renamed_files
 from meshforge.project.replies import has_agreed_labels as has_agreed_labels

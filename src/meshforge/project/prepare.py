@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic
 from typing import Any, Self
 
 from meshforge import batch
@@ -14,7 +16,7 @@ from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_fo
 from meshforge.labels import HullSpan, NewHullLabels, label_new_hulls
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import HullMapping, describe_replaced
-from meshforge.project.preparation_plan import keep_decomposed
+from meshforge.project.preparation_plan import DecompositionPlan, keep_decomposed
 from meshforge.store import History, Store
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 
@@ -232,7 +234,10 @@ def decompose(
     stays done when the caller stops in the midst.
     """
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
-    engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow, "by": by}
+    engine, options = (
+        settings or CoacdSettings(),
+        {"only": tuple(only), "again": again, "hollow": hollow, "by": by, "cache": cache_folder()},
+    )
     work = [
         _DecomposeWork(store.path(a), store.layout.preparation(a), engine, options, pieces and pieces / str(number))
         for number, a in enumerate(ids)
@@ -250,13 +255,43 @@ def decompose(
             yield kept
 
 
+def try_decomposition(
+    store: Store, asset: str, plan: DecompositionPlan, execution: batch.ExecutionOptions, pieces: Path
+) -> tuple[batch.DecompositionResult, float]:
+    """Return what `decompose` would make of one asset, with nothing written to the project; and the seconds that it
+    took, or would take if the hulls were not known from before. pieces: as there.
+
+    Raises AssetError where it cannot be read, MeshForgeError where its process died, StoppedError.
+    """
+    options = {"only": plan.only, "hollow": plan.hollow, "by": plan.by}
+    cache_folder().mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(dir=cache_folder()) as new:  # else what is known from before would take no time
+        folder, cache = store.layout.preparation(asset), {"cache": Path(new)}
+        work = _DecomposeWork(store.path(asset), folder, plan.settings, options | cache, pieces / "0")
+        begun = monotonic()
+        (result,) = batch.run_isolated(_decompose_one, [work], execution)
+        seconds = monotonic() - begun
+        for path in filter(Path.is_file, Path(new).iterdir()):
+            path.replace(cache_folder() / path.name)
+    if isinstance(result, str):
+        raise AssetError(result)
+    if isinstance(result, batch.WorkerFailure):
+        raise MeshForgeError(result.why, where=asset)
+    return result[0], seconds
+
+
+def count_copies(made: Iterable[batch.Replacement]) -> int:
+    """Return how many pieces have the same geometry as another one, beside that one: they are decomposed once."""
+    sources = [entry.source for entry in made]
+    return len(sources) - len({*sources})
+
+
 def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str | None] | str:
     try:
         seen = batch.record_digest(work.folder)
         before = batch.read_preparation(work.folder) or batch.Preparation()
         asset = read(work.path)
-        options = {**work.options, "cache": cache_folder(), "progress": work.report}
-        return batch.decompose_asset(asset, before, work.settings, **options), seen
+        return batch.decompose_asset(asset, before, work.settings, progress=work.report, **work.options), seen
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 

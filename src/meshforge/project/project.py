@@ -1,5 +1,6 @@
 """A project as people use it: a `Store` whose further methods are the use cases, each a function of a store."""
 
+import shutil
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -23,7 +24,10 @@ from meshforge.project import (
 )
 from meshforge.project.replies import reply_to
 from meshforge.project.review import review_project
+from meshforge.samples import TABLES, family_of, write_family
 from meshforge.store import MeshCache, Store, add_assets, create_folder
+
+TABLE_ORIENT = "+Z: Is(leg) -> Is(panel)"
 
 
 @dataclass(frozen=True)
@@ -131,3 +135,16 @@ class Project(Store):
     reply = reply_to
     renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status
+
+
+def create_tour_project(folder: Path, assets: Path, name: str = "tables") -> Project:
+    """Return a new project of the bundled tables, with the labels that lie beside them, the templates of their program
+    and its orientation. assets: the folder that their files are written into."""
+    tables = family_of("tables")
+    write_family(tables, assets)
+    project = Project.create(
+        folder, [assets / tables.pattern], name=name, vocabulary=tables.vocabulary, orient=TABLE_ORIENT
+    )
+    shutil.copytree(TABLES / "templates", project.folder / "templates")
+    project.label("file")
+    return project

@@ -3,6 +3,7 @@
 import multiprocessing
 from collections.abc import Callable
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from threading import Lock, RLock
 
@@ -49,8 +50,8 @@ class Host:
             raise ConflictError("a project is open", remedy="Leave it first.")
         return self._start
 
-    def open(self, folder: Path) -> None:
-        """Open a project, and show it on all pages.
+    def open(self, folder: Path, *, tour: bool = False) -> None:
+        """Open a project, and show it on all pages. tour: with the guided tour.
 
         Raises MeshForgeError: no project there, or a studio has it open already.
         """
@@ -59,23 +60,28 @@ class Host:
                 raise ConflictError("a project is open", remedy="Leave it first.")
             with ExitStack() as stack:
                 _lock_studio(stack, Project.open(folder))
-                session = Session(folder, self._options)
+                session = Session(folder, replace(self._options, tour=tour or self._options.tour))
                 stack.callback(_wait_for_processes)
                 stack.callback(session.close)
+                stack.callback(self._remember, session)
                 session.start()
                 self._stack = stack.pop_all()
-            project = session.project
-            self._start.recent.add(project.folder, project.name, len(project.assets()))
+            self._remember(session)
             with self._lock:
                 self._session = session
                 self._hub.close()
             self._start.rest()
 
-    def create(self, make: Callable[[StartPage], Path]) -> Session:
+    def create(self, make: Callable[[StartPage], Path], *, tour: bool = False) -> Session:
         """Make a project and open it. Raises MeshForgeError where that cannot be."""
         with self._turn:
-            self.open(make(self.start))
+            self.open(make(self.start), tour=tour)
             return self.session
+
+    def _remember(self, session: Session) -> None:
+        """Put a project first among the recent ones, with how far it is."""
+        project = session.project
+        self._start.recent.add(project.folder, project.name, len(project.assets()), session.describe_state())
 
     def leave(self) -> None:
         """Close the project, and show the start page. Raises ConflictError where the studio was started on one."""

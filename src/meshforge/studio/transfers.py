@@ -9,7 +9,16 @@ from pathlib import Path, PurePosixPath
 from threading import Lock
 
 from meshforge.batch import find_assets_in
-from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reads, join_names, replace_atomically
+from meshforge.common import (
+    MeshForgeError,
+    MissingFilesError,
+    ProjectError,
+    UsageError,
+    confine_reads,
+    join_names,
+    pluralize,
+    replace_atomically,
+)
 from meshforge.formats import read
 from meshforge.studio.workers import Workers
 
@@ -130,16 +139,20 @@ def find_assets(workers: Workers, home: Path) -> _Readable:
 
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
     try:
-        files = workers.run(_files_of, path, home)
+        files, lost = workers.run(_files_of, path, home)
+    except MissingFilesError as error:
+        files, lost = (), error.missing
     except MeshForgeError as error:
         return error.message.replace(f"{home}/", "").split("\n")[0]
-    outside = [file.name for file in files if not file.resolve().is_relative_to(home.resolve())]
-    name = path.relative_to(home).as_posix()
-    return f"{name} refers to files that were not sent: {join_names(outside)}" if outside else None
+    lost += tuple(file.name for file in files if not file.resolve().is_relative_to(home.resolve()))
+    if not lost:
+        return None
+    what = f"{pluralize(len(lost), 'file')} that {'was' if len(lost) == 1 else 'were'} not dropped"
+    return f"{path.relative_to(home).as_posix()} refers to {what}: {join_names(lost, most=3)}: drop the folder"
 
 
-def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
+def _files_of(path: Path, home: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The files that an asset refers to, and the references that lead nowhere."""
     with confine_reads(home):  # else a page could ask which files are on the disk
         asset = read(path)
-        asset.refuse_missing()
-        return asset.files
+        return asset.files, tuple(dict.fromkeys((*asset.needed, *asset.missing)))

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
-from meshforge.common import AssetError, join_names
+from meshforge.common import MissingFilesError, join_names
 from meshforge.geometry import Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
 JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
@@ -257,7 +257,8 @@ class Asset:
     def refuse_missing(self) -> None:
         """Raise AssetError where a file is not there that the asset cannot do without."""
         if self.needed:
-            raise AssetError(f"not there: {join_names(self.needed, 5)}", where=str(self.path), remedy=MISSING_REMEDY)
+            problem = f"not there: {join_names(self.needed, 5)}"
+            raise MissingFilesError(problem, missing=self.needed, where=str(self.path), remedy=MISSING_REMEDY)
 
     def with_geoms(self, geoms: Iterable[Geom]) -> Self:
         return replace(self, geoms=tuple(geoms))

@@ -27,7 +27,9 @@ def test_later_assets_are_decomposed_as_the_others_unless_these_differ_or_a_pers
     (done,) = project.decompose(["a.urdf"], settings, hollow=True, by="parts", execution=IN_PROCESS)
     assert len(done.hulls) == 5
     assert choose_decomposition(project, ASKED) == DecompositionPlan(settings, hollow=True, by="parts")
-    chosen = ASKED.model_copy(update={"method": "vhacd"})
-    assert choose_decomposition(project, chosen) == DecompositionPlan(VhacdSettings())
+    chosen = ASKED.model_copy(update={"method": "vhacd", "most": 9})
+    assert choose_decomposition(project, chosen) == DecompositionPlan(VhacdSettings(max_convex_hulls=9))
+    chosen = ASKED.model_copy(update={"method": "coacd", "most": 7, "threshold": 0.4})
+    assert choose_decomposition(project, chosen) == DecompositionPlan(CoacdSettings(0.4, 7))
     list(project.decompose(["c.urdf"], CoacdSettings(threshold=0.3), by="parts", execution=IN_PROCESS))
     assert choose_decomposition(project, ASKED) == DecompositionPlan(CoacdSettings())

@@ -19,7 +19,7 @@ from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.start import folders
 from meshforge.studio.start.folders import build_project
 from meshforge.studio.start.page import RecentProjects, StartPage, state_folder
-from meshforge.studio.wire.start import ProjectOfFamily, ProjectOfFolder, ProjectOfUpload
+from meshforge.studio.wire.start import ProjectOfFamily, ProjectOfFolder, ProjectOfTour, ProjectOfUpload
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import boxes, write_bare_stool, write_stool
 
@@ -60,7 +60,7 @@ def test_what_lacks_files_is_said_and_left_out(page: StartPage, tmp_path: Path) 
     looked = page.look_at_folder(str(tmp_path / "home"))
     assert looked.broken == 1 and looked.problem and "not there: gone.stl" in looked.problem
     send(page, "cup.xml", lost.encode())
-    with pytest.raises(MeshForgeError, match=r"not there: gone\.stl"):
+    with pytest.raises(MeshForgeError, match=r"cup\.xml refers to 1 file that was not dropped: gone\.stl: drop the folder"):
         page.look_at_upload()
 
 
@@ -89,6 +89,32 @@ def test_a_project_that_is_gone_is_shown_as_gone_and_can_be_forgotten(state: Pat
     assert [(one.name, one.gone) for one in recent.list()] == [("there", False), ("gone", True)]
     recent.forget(str(tmp_path / "gone"))
     assert [one.name for one in recent.list()] == ["there"]
+
+
+def test_recent_projects_say_how_far_they_are_as_long_as_nothing_changed(
+    state: Path, tmp_path: Path, assets: Path
+) -> None:
+    recent, folder = RecentProjects(state), Project.create(tmp_path / "p", [assets]).folder
+    picture = folder / ".meshforge" / "studio" / "thumbnails" / "a.png"
+    assert recent.find_picture(str(folder)) is None
+    picture.parent.mkdir(parents=True)
+    picture.write_bytes(b"")
+    recent.add(folder, "p", 14, "12 of 14 signed off")
+    recent.add(folder, "p", 14)  # opened again, then killed
+    (one,) = recent.list()
+    assert (one.state, one.picture, recent.find_picture(str(folder))) == ("12 of 14 signed off", "a.png", picture)
+    assert recent.find_picture(str(tmp_path)) is None
+    os.utime(folder / "meshforge.toml", ns=(2**62, 2**62))
+    assert recent.list()[0].state == "changed since it was left"
+    (folder / "meshforge.toml").write_text("name = [")
+    assert "this is no TOML" in recent.list()[0].state
+
+
+def test_a_hundred_recent_projects_stay(state: Path, tmp_path: Path) -> None:
+    recent = RecentProjects(state)
+    for k in range(101):
+        recent.add(tmp_path / str(k), str(k), 1)
+    assert len(recent.list()) == 100 and recent.list()[0].name == "100"
 
 
 @pytest.mark.parametrize("text", ["", "{broken", '{"projects": 3}', "[]"])
@@ -158,6 +184,13 @@ def test_a_project_of_a_family_has_its_files_and_its_vocabulary(page: StartPage,
     project = Project.open(page.create(ProjectOfFamily(family="tables", project=str(tmp_path / "tables"))))
     assert len(project.assets()) == 14 and project.vocabulary == family_of("tables").vocabulary
     assert all(path.is_relative_to(project.folder) for path in project.found.paths)
+
+
+def test_the_project_of_the_tour_is_that_of_the_demo(page: StartPage, tmp_path: Path) -> None:
+    assert Path(page.view.tour).name.startswith("tables-tour")
+    project = Project.open(page.create(ProjectOfTour(project=str(tmp_path / "mine"))))
+    assert (project.name, len(project.assets()), project.template_names()) == ("mine", 14, ("tray.obj",))
+    assert all(hull.label for hull in project.mesh("table_01.obj").hulls) and project.settings.orient
 
 
 def test_a_look_names_the_parts_of_what_has_no_hulls(page: StartPage, tmp_path: Path) -> None:
@@ -245,7 +278,7 @@ def test_a_project_that_is_open_closes_the_start_page_until_it_is_left(
     with pytest.raises(ConflictError):
         host.open(folder)
     host.leave()
-    assert [one.folder for one in host.start.recent.list()] == [str(folder)]
+    assert [(one.folder, one.gone) for one in host.start.recent.list()] == [(str(folder), False)]
     host.open(folder)  # its lock was let go of
 
 

@@ -2,6 +2,8 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
 import { useCalls } from "../store/calls";
+import { useDecompose } from "../store/decompose";
+import { useLabelSources } from "../store/labelSources";
 import { nextText } from "../store/nextStep";
 import { emptyProject, useProject } from "../store/project";
 import { sampleCard } from "../store/sample.test-help";
@@ -65,14 +67,22 @@ test.each([
   expect(useCalls.getState().place).toBe(place);
 });
 
-test.each([["decompose", "decompose"], ["label-all", "label"]] as const)("a step to %s is done at once, unless it is being done", async (kind, job) => {
+test("a step to decompose asks how, beside the first asset that has none", () => {
+  useProject.setState({ cards: { a: plain, b: sampleCard({ asset: "b", hulls: 0, sources: 1 }) } });
+  setNext("decompose");
+  run("Alt+Enter");
+  expect([useDecompose.getState().open, asset()]).toEqual(["b", "b"]);
+});
+
+test("a step to label-all is done at once, unless it is being done", async () => {
   const started = vi.spyOn(api, "startJob").mockResolvedValue({} as never);
-  useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 0, sources: 1 }), b: sampleCard({ asset: "b", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
-  setNext(kind);
+  useProject.setState({ cards: { b: sampleCard({ asset: "b", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
+  useLabelSources.setState({ files: 1 });
+  setNext("label-all");
   expect(nextText(useProject.getState())).toBe("Look.");
   await run("Alt+Enter");
   await vi.waitFor(() => expect(started).toHaveBeenCalledOnce());
-  useProject.setState({ jobs: [{ id: "1", kind: job, title: "Working", done: 3, total: 9, doing: "", state: "running", message: "", lines: [], out: null }] });
+  useProject.setState({ jobs: [{ id: "1", kind: "label", title: "Working", done: 3, total: 9, doing: "", left: null, state: "running", message: "", lines: [], out: null }] });
   await run("Alt+Enter");
   expect([started.mock.calls.length, nextText(useProject.getState())]).toEqual([1, "Working: 3 of 9"]);
 });

@@ -2,7 +2,8 @@
 import { redo, undo } from "../store/edits";
 import { callFor } from "../store/calls";
 import { matchesFilter, neighbour } from "../store/family";
-import { listBare, makeHulls, saveEdits, whyNotDecompose } from "../store/jobs";
+import { listBare, openDecompose, whyNotDecompose } from "../store/decompose";
+import { saveEdits } from "../store/jobs";
 import { walk } from "../store/labelWalk";
 import { jobOfNext } from "../store/nextStep";
 import { useProject } from "../store/project";
@@ -46,6 +47,8 @@ const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
 
 const hasOthers = needs("There is just one asset.", () => useProject.getState().order.length > 1);
 
+const askForHulls = (): void => listBare(useProject.getState().cards).slice(0, 1).forEach(openDecompose);
+
 /** Goes where the next step is done, and does it where one command does; what writes files waits at its button for Enter. */
 export function goToNext(): unknown {
   const { next } = useProject.getState().project;
@@ -54,7 +57,7 @@ export function goToNext(): unknown {
   if (jobOfNext(useProject.getState())) return;
   switch (next.kind) {
     case "decompose":
-      return whyNotDecompose() ?? makeHulls(listBare(useProject.getState().cards));
+      return askForHulls();
     case "label-all":
       return tryLabel();
     case "check-labels":
@@ -141,7 +144,7 @@ export const goCommands = commandsOf("Go", [
     group: "Edit",
     words: "decompose coacd vhacd convex",
     enabled: unless(whyNotDecompose),
-    run: () => makeHulls(listBare(useProject.getState().cards)),
+    run: askForHulls,
   },
   {
     id: "gallery",

@@ -112,7 +112,7 @@ describe("why the program cannot be applied", () => {
 
   it("is that it is being applied", () => {
     family(card("a"));
-    const job = { id: "1", kind: "apply", title: "", done: 0, total: 1, doing: "", state: "running", message: "", lines: [], out: null } as const;
+    const job = { id: "1", kind: "apply", title: "", done: 0, total: 1, doing: "", left: null, state: "running", message: "", lines: [], out: null } as const;
     useProject.setState({ jobs: [{ ...job, lines: [] }] });
     expect(whyNotApply()).toBe("The program is being applied now.");
   });

@@ -18,7 +18,8 @@ import {
 } from "lucide-react";
 import { memo, type MouseEvent, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
-import { makeHulls, useIsDecomposing } from "../store/jobs";
+import { openDecompose } from "../store/decompose";
+import { useIsDecomposing } from "../store/jobs";
 import { useSelectedPositions } from "../store/familySelection";
 import { doubtsText, probabilityText } from "../store/assessment";
 import { isBare } from "../store/family";
@@ -173,11 +174,11 @@ function MakeHulls({ asset }: { asset: string }) {
   return (
     <Button
       icon={Boxes}
-      tip="Decompose its geometry into convex hulls (CoACD)"
+      tip="Decompose its geometry into convex hulls: settings, and a try"
       disabled={making}
       onClick={(event) => {
         event.stopPropagation();
-        makeHulls([asset]);
+        openDecompose(asset);
       }}
     >
       Make hulls

@@ -2,7 +2,8 @@
 // of them, and the cards.
 import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
 import { useShown } from "../store/family";
-import { listBare, makeHulls, useIsDecomposing } from "../store/jobs";
+import { listBare, openDecompose } from "../store/decompose";
+import { useIsDecomposing } from "../store/jobs";
 import { useProject } from "../store/project";
 import { setLayout, useLayout } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
@@ -92,12 +93,13 @@ function ReadProgress() {
 function MissingHulls() {
   const assets = useProject((state) => listBare(state.cards));
   const making = useIsDecomposing();
-  if (!assets.length || making) return null;
+  const [first] = assets;
+  if (first === undefined || making) return null;
   return (
     <div className={css.notice}>
       <span>{assets.length === 1 ? "One asset has no hulls." : `${assets.length} assets have no hulls.`}</span>
-      <Button icon={Boxes} onClick={() => makeHulls(assets)}>
-        Make them
+      <Button icon={Boxes} onClick={() => openDecompose(first)}>
+        Make them…
       </Button>
     </div>
   );

@@ -23,7 +23,7 @@ export function tonesOf(scene: Scene, by: ColorBy, vocabulary: readonly Vocabula
   const places = distinctPlaces(scene);
   const labels = new Map(vocabulary.map(({ name, color }) => [name, color]));
   const plain = (color: string | null): Tone => ({ color, fill: "solid" });
-  switch (by) {
+  switch (scene.showing.kind === "hulls" ? "hull" : by) {
     case "hull":
       return ({ name }) => plain(PALETTE[places.get(name) ?? 0] ?? null);
     case "body":

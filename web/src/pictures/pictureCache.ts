@@ -3,6 +3,7 @@
 import { getBlob } from "../server/http";
 import { keepLatest } from "../store/once";
 import { waitForFirstScene } from "../store/scenes";
+import { useStart } from "../store/start";
 import type { DecodeAnswer, DecodeRequest } from "./decoder.worker";
 import type { IdMap } from "./idMap";
 import { LatestFirstQueue } from "./latestFirstQueue";
@@ -26,7 +27,7 @@ export function requestPicture(url: string): { picture: Promise<IdMap>; drop: ()
 }
 
 async function fetchPicture(url: string): Promise<IdMap> {
-  await waitForFirstScene();
+  if (!useStart.getState().view) await waitForFirstScene();
   const map = await decodePicture(await getBlob(url));
   keepLatest(kept, url, map, MOST);
   return map;

@@ -41,6 +41,7 @@ export const api = {
     readPacket<EditHeader>(await getBytes("api/stage", { asset, steps })),
   result: async (asset: string, of: "program" | "output"): Promise<EditedPacket> =>
     readPacket<EditHeader>(await getBytes("api/result", { asset, of })),
+  triedHulls: async (asset: string): Promise<EditedPacket> => readPacket<EditHeader>(await getBytes("api/hulls", { asset })),
   preview: async (request: PreviewRequest, stop?: AbortSignal): Promise<EditedPacket> =>
     readPacket<EditHeader>(await postForBytes("api/preview", request, stop)),
   select: (request: SelectRequest, stop?: AbortSignal) => postJson<SelectionView>("api/select", request, stop),
@@ -78,6 +79,7 @@ export const api = {
   stageProjectFile: (path: string, file: Blob) => putBytes<UploadReceipt>("api/start/files", { path }, file),
   lookAtFiles: () => postJson<AssetsFound>("api/start/files", {}),
   clearFiles: () => postJson<UploadReceipt>("api/start/files/clear", {}),
+  recentPicture: (folder: string, version: string) => withQuery("api/start/picture", { folder, v: version }),
   forgetProject: (folder: string) => postJson<StartView>("api/start/forget", { folder }),
   openProject: (folder: string) => postJson<EditReceipt>("api/start/open", { folder }),
   makeProject: (request: NewProject) => postJson<EditReceipt>("api/start/new", request),

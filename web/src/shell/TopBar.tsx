@@ -2,6 +2,7 @@
 import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Search } from "lucide-react";
 import { Popover } from "radix-ui";
 import { api } from "../server/api";
+import { progressText } from "../store/jobs";
 import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
 import { reportError } from "../store/toasts";
@@ -81,7 +82,7 @@ function Jobs() {
           <>
             {first.title}
             <progress value={first.total ? first.done : undefined} max={first.total || 1} aria-label={first.title} />
-            {first.total > 0 && `${first.done}/${first.total}`}
+            {first.total > 0 && progressText(first)}
             {running.length > 1 && ` +${running.length - 1}`}
           </>
         ) : (
@@ -120,7 +121,7 @@ function JobRow({ job }: { job: Job }) {
       <div className={css.jobHead}>
         <Sign state={job.state} />
         <span className={css.jobTitle}>{job.title}</span>
-        {job.total > 0 && `${job.done} of ${job.total}`}
+        {job.total > 0 && progressText(job)}
         {job.state === "running" && job.kind !== "read" && (
           <Button onClick={() => void api.cancelJob(job.id).catch(reportError)}>Stop</Button>
         )}

@@ -1,17 +1,18 @@
 // What a folder or an upload holds, and whether hulls are to be made of what has none.
 import { Boxes } from "lucide-react";
+import { setOptions, useDecompose } from "../store/decompose";
 import { useStart } from "../store/start";
 import { Check, Choice } from "../ui/fields";
+import { HullSettings } from "../ui/HullSettings";
 import { Note } from "../ui/Section";
 import css from "./start.module.css";
-import { brokenText, decomposeText, foundText, METHODS, partsText, UNITS } from "./words";
+import { brokenText, decomposeText, foundText, partsText, UNITS } from "./words";
 
 export function Found() {
   const found = useStart((state) => state.found);
   const busy = useStart((state) => state.busy);
   const decompose = useStart((state) => state.decompose);
-  const method = useStart((state) => state.method);
-  const by = useStart((state) => state.by);
+  const by = useDecompose(({ options }) => options.by ?? "whole");
   const bare = found && decomposeText(found);
   const parts = found && partsText(found, by);
   const broken = found && brokenText(found);
@@ -29,15 +30,10 @@ export function Found() {
               <b>Make convex hulls.</b> {bare}
             </Check>
           )}
-          {bare && decompose && (
-            <div className={css.method}>
-              <Choice name="What makes the hulls" value={method} options={METHODS} onChange={(to) => useStart.setState({ method: to })} />
-              <span className={css.dim}>{METHODS.find(({ value }) => value === method)?.about}</span>
-            </div>
-          )}
+          {bare && decompose && <HullSettings />}
           {parts && decompose && (
             <div className={css.method}>
-              <Choice name="What is decomposed at a time" value={by} options={UNITS} onChange={(to) => useStart.setState({ by: to })} />
+              <Choice name="What is decomposed at a time" value={by} options={UNITS} onChange={(to) => setOptions({ by: to })} />
               <span className={css.dim}>{parts}</span>
             </div>
           )}

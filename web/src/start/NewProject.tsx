@@ -38,6 +38,8 @@ export function NewProject() {
   );
 }
 
+const PICTURES = import.meta.glob<string>("./pictures/*.png", { eager: true, import: "default" });
+
 function Families() {
   const families = useStart((state) => state.view?.families ?? []);
   const family = useStart((state) => state.family);
@@ -47,6 +49,7 @@ function Families() {
       {families.map(({ name, about }) => (
         <label key={name} className={css.family} data-on={name === family}>
           <input type="radio" name="family" checked={name === family} onChange={() => chooseFamily(name)} />
+          <img src={PICTURES[`./pictures/${name}.png`]} alt="" />
           <span>
             <b>{name}</b> {about}
           </span>

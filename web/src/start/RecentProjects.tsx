@@ -1,6 +1,9 @@
 // Projects that were open before; one that is gone says so and can be taken off the list.
 import { FolderOpen, FolderX, X } from "lucide-react";
 import { useState } from "react";
+import { hueOf } from "../pictures/cssColor";
+import { IdPicture } from "../pictures/IdPicture";
+import { api } from "../server/api";
 import { forgetProject, openProject, useStart } from "../store/start";
 import { countText } from "../store/words";
 import { Button, IconButton } from "../ui/Button";
@@ -44,11 +47,12 @@ export function RecentProjects() {
 const NONE: readonly RecentProject[] = [];
 
 function Row({ project, busy }: { project: RecentProject; busy: boolean }) {
-  const { name, folder, gone, assets, opened } = project;
+  const { name, folder, gone, assets, opened, state, picture } = project;
   const [now] = useState(Date.now);
-  const facts = gone ? "There is no project in this folder any more" : [countText(assets, "asset"), openedText(opened, now)].filter(Boolean).join(" · ");
+  const facts = gone ? "There is no project in this folder any more" : [countText(assets, "asset"), state, openedText(opened, now)].filter(Boolean).join(" · ");
   const words = (
     <>
+      {picture ? <IdPicture url={api.recentPicture(folder, picture)} label="" colors={hueOf} className={css.thumb} /> : <span className={css.thumb} />}
       <span className={css.name}>
         {gone && <FolderX size={14} aria-hidden />}
         {name}

@@ -1,8 +1,9 @@
-// The page before a project is open: recent projects on the left, a new one on the right.
+// The page before a project is open: what MeshForge does above; recent projects on the left, a new one on the right.
 import { DropZone } from "../family/AddAssets";
 import { uploadForProject, useStart } from "../store/start";
 import { ThemeMenu } from "../ui/ThemeMenu";
 import { Wordmark } from "../ui/Wordmark";
+import { Intro } from "./Intro";
 import { NewProject } from "./NewProject";
 import { RecentProjects } from "./RecentProjects";
 import css from "./start.module.css";
@@ -18,6 +19,7 @@ export function StartPage() {
       </header>
       <main className={css.main}>
         <h1 className="visually-hidden">Projects</h1>
+        <Intro />
         <RecentProjects />
         <NewProject />
       </main>

@@ -1,18 +1,11 @@
 // What the start page says of assets that were found, and of when a project was open.
-import type { DecomposeBy } from "../store/start";
 import { countText, listText } from "../store/words";
-import type { AssetsFound } from "../wire";
+import type { AssetsFound, DecomposeOptions } from "../wire";
 
 /** `12 URDF`, and how many of them were looked at where that is not all. */
 export function foundText({ kinds, assets, read }: AssetsFound): string {
   return read < assets ? `${kinds}; the first ${read} were looked at` : kinds;
 }
-
-/** What makes hulls, and what tells the two apart. */
-export const METHODS = [
-  { value: "coacd", label: "CoACD", about: "CoACD follows the shape closely, with few hulls; it takes seconds to minutes a piece." },
-  { value: "vhacd", label: "V-HACD", about: "V-HACD is quicker, and coarser." },
-] as const;
 
 /** What making hulls would do, null where there is nothing to decompose. */
 export function decomposeText({ assets, read, bare, pieces }: AssetsFound): string | null {
@@ -21,7 +14,7 @@ export function decomposeText({ assets, read, bare, pieces }: AssetsFound): stri
   const have = bare === 1 ? "has" : "have";
   return (
     `${of} ${have} geometry that is not convex, or no collision geometry: ${countText(pieces, "piece")}. ` +
-    "It is done in the background; you can stop it, and undo it. The files of the assets stay as they are."
+    "It is done in the background; you can stop it, and undo it. Without it, the project lets you try settings on one asset first."
   );
 }
 
@@ -32,7 +25,7 @@ export const UNITS = [
 ] as const;
 
 /** What is known of parts, null where it is nothing. */
-export function partsText({ divided, parts }: AssetsFound, by: DecomposeBy): string | null {
+export function partsText({ divided, parts }: AssetsFound, by: DecomposeOptions["by"]): string | null {
   if (!divided) return null;
   const names = `${countText(divided, "asset")} ${divided === 1 ? "says" : "say"} what ${divided === 1 ? "its" : "their"} parts are (${listText(parts)})`;
   return `${names}: ${by === "parts" ? "no hull crosses from one to another, and hulls are called by them." : "a hull may hold several of them."}`;

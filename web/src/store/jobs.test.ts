@@ -12,7 +12,7 @@ import { useScenes } from "./scenes";
 import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
 
-const job: Job = { id: "p", kind: "label", title: "", done: 0, total: 2, doing: "", state: "running", message: "", lines: [], out: null };
+const job: Job = { id: "p", kind: "label", title: "", done: 0, total: 2, doing: "", left: null, state: "running", message: "", lines: [], out: null };
 const whole = sampleCard({ asset: "a", hulls: 2, labels: [0, 0], confidence: [101, 101] });
 const bare = sampleCard({ asset: "b", hulls: 2, labels: [-1, -1], confidence: [-1, -1] });
 const vocabulary = [{ name: "leg", text: "leg", color: "#000000", used: 2, is_class: false }];

@@ -1,15 +1,16 @@
 // Long work that a person starts: labelling, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { Job, JobLine, JobRequest } from "../wire";
+import type { DecomposeOptions, Job, JobLine, JobRequest } from "../wire";
 import { pendingEdits, perform, sendAfterEdits } from "./edits";
 import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
 import { labelProgress } from "./labelWalk";
 import { useRebuildChoice } from "./newAssets";
-import { oncePerFamily, useProject } from "./project";
+import { useProject } from "./project";
 import { reportError } from "./toasts";
+import { countText, durationText } from "./words";
 
-const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
+export const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
 
 /** Why the program cannot be applied, null where it can. */
 export function whyNotApply(): string | null {
@@ -41,9 +42,16 @@ export async function saveEdits(): Promise<void> {
 }
 
 /** Begins a job once the edits before it are saved; whether it could be begun. */
-function startJob(request: JobRequest): Promise<boolean> {
+const startJob = async (request: JobRequest): Promise<boolean> => (await beginJob(request)) !== null;
+
+/** The same; gives its id, null where it could not be begun. */
+async function beginJob(request: JobRequest): Promise<string | null> {
   endStroke();
-  return sendAfterEdits(() => api.startJob(request));
+  let id: string | null = null;
+  await sendAfterEdits(async () => {
+    id = (await api.startJob(request)).id;
+  });
+  return id;
 }
 
 const applyJob = (assets: readonly string[] | null): JobRequest => ({
@@ -108,17 +116,16 @@ export function useJob(kind: Job["kind"]): Job | null {
   return useProject((state) => state.jobs.findLast((job) => job.kind === kind) ?? null);
 }
 
-/** Assets that have geometry, yet no hulls. */
-export const listBare = oncePerFamily((cards) => cards.filter((card) => card.hulls === 0 && card.sources > 0).map((card) => card.asset));
+export const makeHulls = (assets: readonly string[], options: DecomposeOptions): void => void startJob({ kind: "decompose", assets: [...assets], ...options });
 
-/** Why no hulls can be made, null where they can. */
-export function whyNotDecompose(): string | null {
-  const { cards, jobs } = useProject.getState();
-  if (isRunning(jobs, "decompose")) return "Hulls are being made now.";
-  return listBare(cards).length ? null : "Every asset has hulls.";
+/** Makes the hulls of one asset and keeps none; the id of the job, null where it could not be begun. */
+export const tryHulls = (asset: string, assets: string[], options: DecomposeOptions): Promise<string | null> => beginJob({ kind: "preview", asset, assets, ...options });
+
+/** How far a job is: `23 of 61 pieces, about 40 s left`. */
+export function progressText({ kind, done, total, left }: Job, unit = kind === "decompose" || kind === "preview" ? "piece" : ""): string {
+  const all = unit ? countText(total, unit) : total.toLocaleString("en-GB");
+  return `${done.toLocaleString("en-GB")} of ${all}${left === null || left === undefined || left < 1 ? "" : `, about ${durationText(left)} left`}`;
 }
-
-export const makeHulls = (assets: string[]): void => void startJob({ kind: "decompose", assets });
 
 /** Whether an asset is waiting for hulls to be made. */
 export const useIsDecomposing = () => useProject(({ jobs }) => isRunning(jobs, "decompose"));

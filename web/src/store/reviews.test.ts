@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditHeader, HullView } from "../wire";
-import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, groupCards, groupOf, isSignedOff, numbersOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard, sampleRow } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -116,12 +116,6 @@ describe("numbers about a result", () => {
 
   it("says why it is stale, also for a reason it does not know", () => {
     expect(staleText(["labels", "weather"])).toBe("its labels changed, weather changed");
-  });
-
-  it("has no rate before it can be told", () => {
-    expect(rateOf({ done: 2, at: 1000 }, 2, 9000)).toBeNull();
-    expect(rateOf({ done: 2, at: 1000 }, 8, 1100)).toBeNull();
-    expect(rateOf({ done: 2, at: 1000 }, 8, 3000)).toBe(3);
   });
 });
 

@@ -125,12 +125,6 @@ const STALE: Readonly<Record<string, string>> = {
   output: "written files are gone",
 };
 
-/** Assets a second, from when a job was first seen; null before that is known. */
-export function rateOf(first: { done: number; at: number }, done: number, now: number): number | null {
-  const seconds = (now - first.at) / 1000;
-  return seconds < 0.5 || done <= first.done ? null : (done - first.done) / seconds;
-}
-
 type Verdict = ReturnType<typeof verdictOf>;
 
 /** Whether written outputs are legal, asked for when one wants to know and kept as long as the output stays. */

@@ -133,15 +133,19 @@ async function editOf(asset: string, showing: Showing): Promise<EditedPacket | n
   const state = useProject.getState();
   const revision = state.revisions[asset] ?? 0;
   const card = state.cards[asset];
-  const of = showing.kind === "steps" ? `steps ${showing.steps}` : showing.of;
+  const of = showing.kind === "steps" ? `steps ${showing.steps}` : showing.kind === "hulls" ? showing.job : showing.of;
   const version = of === "program" ? state.program.version : of === "output" ? card?.edited_picture : "";
   const key = [asset, revision, of, version].join("\n");
   const known = edited.get(key);
   if (known) return known;
-  const packet =
-    showing.kind === "steps" ? await api.stage(asset, showing.steps) : await api.result(asset, showing.of);
+  const packet = await fetchEdit(asset, showing);
   keepLatest(edited, key, packet, MOST);
   return packet;
+}
+
+function fetchEdit(asset: string, showing: Exclude<Showing, { kind: "source" }>): Promise<EditedPacket> {
+  if (showing.kind === "hulls") return api.triedHulls(asset);
+  return showing.kind === "steps" ? api.stage(asset, showing.steps) : api.result(asset, showing.of);
 }
 
 /** Details of the asset in hand; null while they are on their way. */
@@ -201,11 +205,7 @@ async function usualState(asset: string, stage: WorkspaceState["stage"]): Promis
   return program.text && !fails ? { kind: "result", of: "program" } : { kind: "source" };
 }
 
-function isSame(a: Showing, b: Showing): boolean {
-  if (a.kind === "steps" && b.kind === "steps") return a.steps === b.steps;
-  if (a.kind === "result" && b.kind === "result") return a.of === b.of;
-  return a.kind === "source" && b.kind === "source";
-}
+const isSame = (a: Showing, b: Showing): boolean => JSON.stringify(a) === JSON.stringify(b);
 
 const LATEST = 3000; // [ms] where nothing is shown at all
 

@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { AssetsFound } from "../wire";
+import { setOptions, useDecompose } from "./decompose";
 import * as start from "./start";
 
 vi.mock("../server/api", () => ({
@@ -10,7 +11,7 @@ vi.mock("../server/api", () => ({
 }));
 const server = vi.mocked(api);
 
-const view = { version: "1", recent: [], places: ["/home"], families: [{ name: "cups", about: "", project: "/p/cups" }, { name: "tables", about: "", project: "/p/tables" }] };
+const view = { version: "1", recent: [], places: ["/home"], tour: "/p/tour", families: [{ name: "cups", about: "", project: "/p/cups" }, { name: "tables", about: "", project: "/p/tables" }] };
 const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p/a" };
 const problem = new ServerProblem({ message: "there is no such folder", where: "/a", remedy: "Browse for it.", conflict: false }, 400);
 const state = () => start.useStart.getState();
@@ -18,6 +19,7 @@ const state = () => start.useStart.getState();
 beforeEach(() => {
   vi.clearAllMocks();
   start.useStart.setState(start.initialStart, true);
+  useDecompose.setState(useDecompose.getInitialState(), true);
   start.showStart(view);
   server.lookAtFolder.mockResolvedValue(found);
 });
@@ -28,7 +30,7 @@ describe("a project of a folder", () => {
     await start.lookAtFolder();
     expect([state().project, state().decompose, state().busy]).toEqual(["/p/a", true, null]);
     await start.makeProject();
-    expect(server.makeProject).toHaveBeenCalledWith({ kind: "folder", folder: "/a", project: "/p/a", decompose: "coacd", by: "whole" });
+    expect(server.makeProject).toHaveBeenCalledWith({ kind: "folder", folder: "/a", project: "/p/a", decompose: { method: "coacd", by: "whole", most: null, threshold: null } });
   });
 
   it("is not decomposed where nothing is to be, or nobody wants it", async () => {
@@ -37,19 +39,19 @@ describe("a project of a folder", () => {
     expect(start.newProject(state())).toMatchObject({ decompose: null });
     server.lookAtFolder.mockResolvedValue(found);
     await start.lookAtFolder("/a");
-    start.useStart.setState({ decompose: true, method: "vhacd" });
-    expect(start.newProject(state())).toMatchObject({ decompose: "vhacd" });
+    setOptions({ method: "vhacd", most: 8 });
+    expect(start.newProject(state())).toMatchObject({ decompose: { method: "vhacd", most: 8 } });
     start.useStart.setState({ decompose: false });
     expect(start.newProject(state())).toMatchObject({ decompose: null });
   });
 
   it("is decomposed part by part only where parts are known", async () => {
-    start.useStart.setState({ by: "parts" });
+    setOptions({ by: "parts" });
     await start.lookAtFolder("/a");
-    expect(start.newProject(state())).toMatchObject({ decompose: "coacd", by: "whole" });
+    expect(start.newProject(state())).toMatchObject({ decompose: { method: "coacd", by: "whole" } });
     server.lookAtFolder.mockResolvedValue({ ...found, divided: 1, parts: ["wall", "handle"] });
     await start.lookAtFolder("/a");
-    expect(start.newProject(state())).toMatchObject({ decompose: "coacd", by: "parts" });
+    expect(start.newProject(state())).toMatchObject({ decompose: { by: "parts" } });
   });
 
   it("shows a problem at its place, until something else is typed", async () => {
@@ -76,7 +78,7 @@ it("dropped files are sent in place of those before, and looked at", async () =>
   expect(server.clearFiles).toHaveBeenCalledOnce();
   expect(server.stageProjectFile.mock.calls.map(([path]) => path)).toEqual(["desks/a.obj"]);
   expect([state().source, state().project]).toEqual(["upload", "/p/a"]);
-  expect(start.newProject(state())).toEqual({ kind: "upload", project: "/p/a", decompose: "coacd", by: "whole" });
+  expect(start.newProject(state())).toEqual({ kind: "upload", project: "/p/a", decompose: { method: "coacd", by: "whole", most: null, threshold: null } });
 });
 
 it("a bundled family is offered a place of its own", () => {
@@ -84,6 +86,11 @@ it("a bundled family is offered a place of its own", () => {
   expect([state().family, state().project]).toEqual(["cups", "/p/cups"]);
   start.chooseFamily("tables");
   expect(start.newProject(state())).toEqual({ kind: "family", family: "tables", project: "/p/tables" });
+});
+
+it("the tour is a project in the folder that is typed", async () => {
+  await start.takeTour("/mine");
+  expect(server.makeProject).toHaveBeenCalledWith({ kind: "tour", project: "/mine" });
 });
 
 it("one thing is done at a time", async () => {

@@ -2,17 +2,15 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { AssetsFound, DecomposeJob, NewProject, Problem, StartView } from "../wire";
+import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
+import { chosenOptions } from "./decompose";
 import { reportError } from "./toasts";
 import { type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
 
 /** What a problem is about: the place where it is shown. */
-export type Place = "open" | "assets" | "project";
-
-/** What is decomposed at a time. */
-export type DecomposeBy = NonNullable<DecomposeJob["by"]>;
+export type Place = "open" | "assets" | "project" | "tour";
 
 export interface StartState {
   /** What the start page shows; null while a project is open, or nothing is known. */
@@ -26,10 +24,6 @@ export interface StartState {
   /** The folder of the new project. */
   project: string;
   decompose: boolean;
-  /** What makes the hulls. */
-  method: "coacd" | "vhacd";
-  /** Whether parts that are known are decomposed each by itself. */
-  by: DecomposeBy;
   busy: "look" | "open" | "make" | null;
   problem: { place: Place; problem: Problem } | null;
 }
@@ -42,8 +36,6 @@ export const initialStart: StartState = {
   family: "",
   project: "",
   decompose: true,
-  method: "coacd",
-  by: "whole",
   busy: null,
   problem: null,
 };
@@ -109,9 +101,10 @@ async function look(ask: () => Promise<AssetsFound>, isWanted = () => true): Pro
 }
 
 /** What the server is asked to make. */
-export function newProject({ source, folder, family, project, decompose, method, by: wanted, found }: StartState): NewProject {
-  const by = found !== null && found.divided > 0 ? wanted : "whole";
-  const hulls = { decompose: decompose && found !== null && found.bare > 0 ? method : null, by };
+export function newProject({ source, folder, family, project, decompose, found }: StartState): NewProject {
+  const options = chosenOptions();
+  const by = found !== null && found.divided > 0 ? options.by : "whole";
+  const hulls = { decompose: decompose && found !== null && found.bare > 0 ? { ...options, by } : null };
   switch (source) {
     case "folder":
       return { kind: "folder", folder: found?.folder ?? folder, project, ...hulls };
@@ -125,6 +118,11 @@ export function newProject({ source, folder, family, project, decompose, method,
 /** Makes the new project, which opens by itself. */
 export async function makeProject(): Promise<void> {
   await attempt("make", "project", () => api.makeProject(newProject(useStart.getState())));
+}
+
+/** Makes the project of the guided tour in a folder, and opens it. */
+export async function takeTour(project: string): Promise<void> {
+  await attempt("make", "tour", () => api.makeProject({ kind: "tour", project }));
 }
 
 export async function openProject(folder: string): Promise<void> {

@@ -12,6 +12,7 @@ import {
   rebuildBodies,
   labelAll,
   makeHulls,
+  progressText,
   whyNotApply,
   whyNotCheck,
   whyNotRebuild,
@@ -20,7 +21,7 @@ import { emptyProject, type ProjectState, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
 
-const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, doing: "", state, message: "", lines: [], out: null });
+const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, doing: "", left: null, state, message: "", lines: [], out: null });
 const found = (asset: string, body: string): JobLine => ({ asset, body, status: "done", text: "", before: [], picture: null, hulls: [] });
 const set = (state: Partial<ProjectState>) => useProject.setState(state);
 const program = { ...emptyProject.program, text: "All => Delete" };
@@ -46,7 +47,7 @@ describe("a job", () => {
     await findSpanning();
     await rebuildBodies([found("a", "base"), found("a", "lid"), found("b", "base")], false);
     await exportTo("out", true);
-    makeHulls(["a"]);
+    makeHulls(["a"], { method: "coacd", most: 8 });
     await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledTimes(8));
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
       { kind: "apply", assets: null, rebuild: true },
@@ -56,8 +57,13 @@ describe("a job", () => {
       { kind: "rebuild" },
       { kind: "rebuild", bodies: { a: ["base", "lid"], b: ["base"] }, every: false },
       { kind: "export", folder: "out", signed_only: true },
-      { kind: "decompose", assets: ["a"] },
+      { kind: "decompose", assets: ["a"], method: "coacd", most: 8 },
     ]);
+  });
+
+  it("says how far it is, and for how long it may go on", () => {
+    const at = (left: number | null) => progressText({ ...job("decompose"), done: 23, total: 61, left });
+    expect([at(null), at(40.2), at(200), at(9000)]).toEqual(["23 of 61 pieces", "23 of 61 pieces, about 40 s left", "23 of 61 pieces, about 3 min left", "23 of 61 pieces, about 3 h left"]);
   });
 
   it("that begins says so", async () => {
@@ -67,7 +73,7 @@ describe("a job", () => {
   it("that cannot begin is reported with its remedy", async () => {
     vi.mocked(api.startJob).mockRejectedValue(refusal);
     expect(await applyTo(null)).toBe(false);
-    makeHulls(["a"]);
+    makeHulls(["a"], { method: "coacd", most: 8 });
     await vi.waitFor(() => expect(toasts()).toHaveLength(2));
     expect(toasts()[0]).toEqual(["another job runs", "Stop it."]);
   });

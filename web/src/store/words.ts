@@ -5,6 +5,12 @@ export function countText(count: number, one: string, many = `${one}s`): string 
   return `${count.toLocaleString("en-GB")} ${count === 1 ? one : many}`;
 }
 
+/** `40 s`, `3 min`, `2 h`. */
+export function durationText(seconds: number): string {
+  if (seconds < 90) return `${Math.round(seconds)} s`;
+  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
+}
+
 /** A text as a sentence: with a capital, and a full stop. */
 export function toSentence(text: string): string {
   return `${capitalize(text)}${text.endsWith(".") ? "" : "."}`;

@@ -29,6 +29,8 @@ export const STAGE_OF: Readonly<Record<NextStep["kind"], StageName>> = {
 export type Showing =
   | { kind: "source" }
   | { kind: "steps"; steps: number }
+  /** Hulls that a job tried on it. */
+  | { kind: "hulls"; job: string }
   | { kind: "result"; of: "program" | "output" };
 
 export type ColorBy = "hull" | "label" | "body";

@@ -1,17 +1,19 @@
 """Hulls for what an asset has none for, by a decomposition engine, and how well they fit what they were made of."""
 
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from glob import escape
 from importlib.metadata import version
-from math import floor
+from math import floor, inf
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
 from meshforge import geometry
+from meshforge.batch.lock import hold_lock
 from meshforge.batch.preparation import record
 from meshforge.checks import measure_kept_space
 from meshforge.common import GeometryError, MeshForgeError, join_names, pluralize
@@ -78,7 +80,8 @@ def decompose_asset(
     for number, source in enumerate(chosen):
         progress(number, len(chosen))
         try:
-            entry, own = _decompose_source(source, settings, taken, hollow, by, cache)
+            with _lock_copies(source, cache):
+                entry, own = _decompose_source(source, settings, taken, hollow, by, cache)
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
             why = MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
@@ -112,6 +115,13 @@ def replace_concave(asset: Asset, how: Concave) -> Asset:
     for lost in done.failed:
         raise GeometryError(lost.why, where=lost.what)
     return record.apply_preparation(asset, done.preparation)
+
+
+def _lock_copies(source: record.DecompositionSource, cache: Path | None) -> AbstractContextManager[None]:
+    """A lock by which of pieces with the same geometry one is decomposed; the others find its hulls in the cache."""
+    if cache is None:
+        return nullcontext()
+    return hold_lock(cache / "locks" / record.surface_digest(source.surface)[:2], source.what, wait=inf)
 
 
 def _decompose_source(

@@ -10,7 +10,7 @@ from urllib.parse import unquote, unquote_to_bytes
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.common import AssetError, is_beyond_reach
+from meshforge.common import AssetError, MissingFilesError, is_beyond_reach
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.surface import stack_triangles, to_doubles
 from meshforge.geometry import Floats, Ints
@@ -100,7 +100,7 @@ class Buffers:
             why = "is not there" if isinstance(error, FileNotFoundError) else f"cannot be read: {error.strerror}"
             problem = f"its buffer {uri[:100]} {why}"
             remedy = "Put it there, or export the model as one .glb."
-            raise AssetError(problem, where=str(self.path), remedy=remedy) from error
+            raise MissingFilesError(problem, missing=(uri[:100],), where=str(self.path), remedy=remedy) from error
 
     def _file(self, uri: str) -> Path:
         """The file of a buffer. Raises OSError: a pipe would be waited for, a device may never end."""

@@ -7,7 +7,7 @@ from math import isnan
 from pathlib import Path
 from typing import Literal
 
-from meshforge.common import AssetError, is_file
+from meshforge.common import AssetError, MissingFilesError, is_file
 from meshforge.formats import mesh_reader, references
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf import compiler
@@ -124,8 +124,9 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
         called = f"collision geom {first.name!r}" if first.name else "a collision geom"
         others = f" (and {count - 1} more like it)" if count > 1 else ""
         problem = f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}"
-        remedy = references.Resolver(tree.main.path.parent).advice(str(files[first.meshname]))
-        raise AssetError(problem, where=tree.where(node), remedy=remedy)
+        where, remedy = tree.where(node), references.Resolver(tree.main.path.parent).advice(str(files[first.meshname]))
+        gone = (node.attributes["file"] for name, node in nodes.items() if node and name in missing)
+        raise MissingFilesError(problem, missing=dict.fromkeys(gone), where=where, remedy=remedy)
     for name in dict.fromkeys(geom.meshname for geom in colliding):
         if name in files and is_file(files[name]):
             mesh_reader.read_content(files[name])

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.common import AssetError, is_file, plain_path, relative_name
+from meshforge.common import AssetError, MissingFilesError, is_file, plain_path, relative_name
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.xml import Element, SourceFile, XmlText, parse_xml
 from meshforge.symbolic import Document, unique_names
@@ -168,7 +168,8 @@ class _TreeReader:
         path = next((path for path in candidates if path in self.files or is_file(path)), None)
         if path is None:
             remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
-            raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
+            problem = f"the included file {reference!r} is not there"
+            raise MissingFilesError(problem, missing=(reference,), where=where, remedy=remedy)
         if any(known.path == path for known in self.sources) or depth > _DEEPEST:
             problem = f"{reference!r} is included twice, or includes itself"
             remedy = "MuJoCo includes a file at most once; take this <include> away."

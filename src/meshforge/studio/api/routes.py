@@ -104,6 +104,15 @@ def get_result(session: CurrentSession, asset: str, of: Literal["program", "outp
     return packet_response(packets.preview_result(session.project, asset, session.mesh(asset), of, program))
 
 
+@router.get("/api/hulls")
+def get_tried_hulls(session: CurrentSession, asset: str) -> Response:
+    """Return an asset with the hulls that were tried on it last."""
+    tried = session.preview
+    if tried is None or tried[0] != asset:
+        raise NotHereError("no hulls were tried on it", where=asset)
+    return packet_response(tried[1])
+
+
 @router.get("/api/guesses")
 def get_guesses(session: CurrentSession, asset: str) -> tuple[Guess, ...]:
     """Return what the program would select for each rule."""

@@ -3,14 +3,24 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Depends, Request
+from fastapi.responses import FileResponse
 
+from meshforge.store import NotHereError
 from meshforge.studio.api.connection import BodyText, CurrentHost
 from meshforge.studio.jobs import start_job
 from meshforge.studio.start import folders
 from meshforge.studio.start.page import StartPage
 from meshforge.studio.wire.jobs import DecomposeJob
 from meshforge.studio.wire.requests import EditReceipt, UploadReceipt
-from meshforge.studio.wire.start import AssetsFound, FolderView, NewProject, ProjectOfFamily, StartView
+from meshforge.studio.wire.start import (
+    AssetsFound,
+    FolderView,
+    NewProject,
+    ProjectOfFolder,
+    ProjectOfTour,
+    ProjectOfUpload,
+    StartView,
+)
 
 router = APIRouter(prefix="/api/start")
 
@@ -63,6 +73,14 @@ def forget(start: CurrentStart, folder: BodyText) -> StartView:
     return start.view
 
 
+@router.get("/picture")
+def get_picture(start: CurrentStart, folder: str) -> FileResponse:
+    """Return the thumbnail of a recent project."""
+    if (picture := start.recent.find_picture(folder)) is None:
+        raise NotHereError("there is no such picture", where=folder)
+    return FileResponse(picture, media_type="image/png")
+
+
 @router.post("/open")
 def open_project(host: CurrentHost, start: CurrentStart, folder: BodyText) -> EditReceipt:
     """Open a project."""
@@ -75,10 +93,9 @@ def open_project(host: CurrentHost, start: CurrentStart, folder: BodyText) -> Ed
 @router.post("/new")
 def make_project(host: CurrentHost, request: Annotated[NewProject, Body(discriminator="kind")]) -> EditReceipt:
     """Make a project and open it; hulls are made in a job, as far as that is asked for."""
-    session = host.create(lambda start: start.create(request))
-    if not isinstance(request, ProjectOfFamily) and request.decompose:
-        job = DecomposeJob(assets=session.project.assets(), method=request.decompose, by=request.by)
-        start_job(session, job)
+    session = host.create(lambda start: start.create(request), tour=isinstance(request, ProjectOfTour))
+    if isinstance(request, ProjectOfFolder | ProjectOfUpload) and request.decompose:
+        start_job(session, DecomposeJob(assets=session.project.assets(), **request.decompose.model_dump()))
     return EditReceipt(message=f"{session.project.folder} made")
 
 

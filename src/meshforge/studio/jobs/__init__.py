@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from meshforge.studio.jobs.outputs import start_apply, start_check, start_export, start_goal
-from meshforge.studio.jobs.preparation import start_decompose, start_label, start_rebuild
+from meshforge.studio.jobs.preparation import start_decompose, start_label, start_preview, start_rebuild
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire import jobs as wire
 
@@ -15,6 +15,8 @@ def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
             return start_apply(session, request)
         case wire.DecomposeJob():
             return start_decompose(session, request)
+        case wire.PreviewJob():
+            return start_preview(session, request)
         case wire.RebuildJob():
             return start_rebuild(session, request)
         case wire.ExportJob():

@@ -1,13 +1,16 @@
 """Jobs before the program runs: decomposing, rebuilding, and labelling."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import groupby
-from typing import Literal
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Literal
 from uuid import uuid4
 
-from meshforge.batch import ExecutionOptions, record_digest
-from meshforge.common import format_share, pluralize, relative_name
+from meshforge.batch import ExecutionOptions, apply_preparation, count_processors, record_digest
+from meshforge.common import GeometryError, format_share, pluralize, relative_name
+from meshforge.formats import read
 from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import (
     LabelOutcome,
@@ -25,11 +28,13 @@ from meshforge.project import (
     read_piece_engine,
     read_preparation_plan,
 )
+from meshforge.project.prepare import count_copies, count_pieces, try_decomposition
 from meshforge.store import ConflictError, Layout
+from meshforge.studio.queries.packets import pack_edited
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
-from meshforge.studio.wire.jobs import DecomposeJob, Job, JobLine, RebuildJob
-from meshforge.symbolic import GIVEN_SOURCES
+from meshforge.studio.wire.jobs import DecomposeJob, DecomposeOptions, Job, JobLine, PreviewJob, RebuildJob
+from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
 
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
@@ -40,30 +45,85 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
     plan = choose_decomposition(project, request)
 
     def work(progress: JobProgress) -> str:
-        made = 0
-        results = project.decompose(
-            assets,
-            plan.settings,
-            hollow=plan.hollow,
-            by=plan.by,
-            execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
-            write_block=lambda asset: session.record_preparation(f"{asset} decomposed", asset, group),
-        )
-        for result in results:
-            made += len(result.hulls)
-            progress.add_line(_decompose_line(result))
-        return f"{pluralize(made, 'hull')} made for {pluralize(len(assets), 'asset')}."
+        done = list[PreparationResult]()
+        with _count_pieces(progress) as (pieces, execution):
+            results = project.decompose(
+                assets,
+                plan.settings,
+                hollow=plan.hollow,
+                by=plan.by,
+                execution=execution,
+                write_block=lambda asset: session.record_preparation(f"{asset} decomposed", asset, group),
+                pieces=pieces,
+            )
+            for result in results:
+                done.append(result)
+                progress.add_line(_decompose_line(result))
+        made = pluralize(sum(len(result.hulls) for result in done), "hull")
+        copies = count_copies(entry for result in done for entry in result.made)
+        alike = f" {pluralize(copies, 'equal copy', 'equal copies')} got the hulls of the first." if copies else ""
+        return f"{made} made for {pluralize(len(assets), 'asset')}.{alike}"
 
-    return session.jobs.start("decompose", f"Decomposing {pluralize(len(assets), 'asset')}", len(assets), work)
+    title = f"Decomposing {pluralize(len(assets), 'asset')}"
+    return session.jobs.start("decompose", title, _count_sources(session, assets), work)
 
 
-def choose_decomposition(project: Project, request: DecomposeJob) -> DecompositionPlan:
+def start_preview(session: Session, request: PreviewJob) -> Job:
+    """Start to make the hulls of one asset, for pages to fetch; none are kept."""
+    project, asset = session.project, request.asset
+    session.check_assets(asset, *request.assets)
+    plan = choose_decomposition(project, request)
+
+    def work(progress: JobProgress) -> str:
+        with _count_pieces(progress) as (pieces, execution):
+            found, seconds = try_decomposition(project, asset, plan, execution, pieces)
+        if not found.made:
+            raise GeometryError("; ".join(one.why for one in found.failed) or "nothing to decompose", where=asset)
+        after = SymbolicMesh.of(apply_preparation(read(project.path(asset)), found.preparation))
+        before = session.mesh(asset)
+        session.preview = asset, pack_edited(before, before, after)
+        hulls = pluralize(sum(len(entry.made) for entry in found.made), "hull")
+        text = f"{pluralize(len(found.made), 'piece')}: {hulls}, {seconds:.0f} s"
+        others = _count_sources(session, request.assets)
+        rate = seconds / len(found.made) / min(count_processors(), len(request.assets) or 1)
+        text += f"; {pluralize(len(request.assets), 'asset')}: about {max(rate * others, 1):.0f} s."
+        return text + "".join(f" {lost.what}: {lost.why}." for lost in found.failed)
+
+    total = _count_sources(session, [asset])
+    return session.jobs.start("preview", f"Trying {asset}", total, work, stays="no hull was kept.")
+
+
+def _count_sources(session: Session, assets: Iterable[str]) -> int:
+    """How many pieces some assets have that are to be decomposed, as far as that is known."""
+    known = {card.asset: card.sources for card in session.pages.cards}
+    return sum(known.get(asset) or 1 for asset in assets)
+
+
+@contextmanager
+def _count_pieces(progress: JobProgress) -> Iterator[tuple[Path, ExecutionOptions]]:
+    """A folder for how far each asset is, and options by which a job stops and says that."""
+    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
+
+        def is_stopped() -> bool:
+            progress.advance(count_pieces(Path(name))[0])
+            return progress.is_stopped()
+
+        yield Path(name), ExecutionOptions(stop=is_stopped)
+        is_stopped()
+
+
+def choose_decomposition(project: Project, request: DecomposeOptions) -> DecompositionPlan:
     """Return how assets are decomposed: where nothing is asked for, as the project's other ones, so that it stays clear
     how new ones are."""
     plan = read_preparation_plan(project).decompose if request.method is None else ()
     if len(plan) == 1 and not plan[0].only:
         return plan[0]
-    return DecompositionPlan(VhacdSettings() if request.method == "vhacd" else CoacdSettings(), by=request.by)
+    if request.method == "vhacd":
+        given: dict[str, Any] = {"max_convex_hulls": request.most}
+    else:
+        given = {"max_convex_hull": request.most, "threshold": request.threshold}
+    make = VhacdSettings if request.method == "vhacd" else CoacdSettings
+    return DecompositionPlan(make(**{name: value for name, value in given.items() if value is not None}), by=request.by)
 
 
 def _decompose_line(result: PreparationResult) -> JobLine:

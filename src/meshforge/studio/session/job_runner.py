@@ -24,7 +24,7 @@ class JobProgress:
         self._job, self._show = job, show
         self._lock, self._stopped = RLock(), Event()
         self._lines: list[JobLine] = []
-        self._last_sent = 0.0
+        self._last_sent, self._begun = 0.0, monotonic()
         self._send(at_once=True)
 
     @property
@@ -50,8 +50,9 @@ class JobProgress:
     def advance(self, done: int | None = None) -> None:
         """Count one more thing as done, or set how many are."""
         with self._lock:
-            now = self._job.done + 1 if done is None else done
-            self._job = self._job.model_copy(update={"done": min(now, self._job.total)})
+            now = min(self._job.done + 1 if done is None else done, self._job.total)
+            left = (monotonic() - self._begun) * (self._job.total - now) / now if now else None
+            self._job = self._job.model_copy(update={"done": now, "left": left})
             self._send()
 
     @contextmanager
@@ -60,7 +61,8 @@ class JobProgress:
         says so; where there is nothing to do, what was done last stays."""
         with self._lock:
             if total:
-                self._job = self._job.model_copy(update={"done": 0, "total": total, "doing": what})
+                self._job = self._job.model_copy(update={"done": 0, "total": total, "doing": what, "left": None})
+                self._begun = monotonic()
             self._send()
         yield self.advance
 
@@ -73,7 +75,7 @@ class JobProgress:
     def end(self, state: str, message: str, out: str | None = None) -> None:
         """End the job."""
         with self._lock:
-            self._job = self._job.model_copy(update={"state": state, "message": message, "out": out})
+            self._job = self._job.model_copy(update={"state": state, "message": message, "out": out, "left": None})
             self._send(at_once=True)
 
     def _send(self, at_once: bool = False) -> None:

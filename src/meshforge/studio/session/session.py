@@ -84,6 +84,7 @@ class Session:
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
         self._take_learned = False
+        self.preview: tuple[str, bytes] | None = None  # an asset, and the packet of hulls that were tried on it
 
     @property
     def project(self) -> Project:
@@ -126,6 +127,17 @@ class Session:
         if accepted.error:
             raise ProjectError(accepted.error, where=Layout.program.name)
         return Program.parse(accepted.text) if accepted.text else None
+
+    def describe_state(self) -> str | None:
+        """Return how far the project is, as a list of projects says it; None while it is being read."""
+        cards, found = self.pages.cards, self.pages.shown
+        if not cards or any(card.hulls is None and card.error is None for card in cards):
+            return None
+        if found.assessment and found.assessment.assets:
+            return f"{found.assessment.signed_off} of {len(cards)} signed off"
+        if not any(label >= 0 for card in cards for label in card.labels):
+            return "no labels yet"
+        return "not reviewed yet" if found.program.text else "no program yet"
 
     def check_assets(self, *assets: str) -> None:
         """Raise NotHereError for an id that no asset has."""

@@ -5,18 +5,20 @@ import logging
 import os
 import shutil
 from collections.abc import Mapping
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import time
 from typing import assert_never
 
 from meshforge.batch import SETTINGS, hold_lock
-from meshforge.common import MeshForgeError, ProjectError, is_file
-from meshforge.project import Project
+from meshforge.common import MeshForgeError, ProjectError, file_state, is_file
+from meshforge.project import Project, create_tour_project
 from meshforge.samples import FAMILIES, family_of, write_family
-from meshforge.store.layout import JsonFile, read_derived, write_json
+from meshforge.store.layout import JsonFile, Layout, read_derived, write_json
+from meshforge.store.settings import read_settings
 from meshforge.studio.start import folders
 from meshforge.studio.transfers import Uploads
 from meshforge.studio.wire import start as wire
@@ -53,6 +55,7 @@ class StartPage:
                 for one in FAMILIES
             ),
             places=tuple(dict.fromkeys(map(str, (Path.cwd(), Path.home())))),
+            tour=str(folders.suggest_project("tables-tour")),
         )
 
     @property
@@ -97,6 +100,9 @@ class StartPage:
                 _create_of_upload(home, project)
             case wire.ProjectOfFamily():
                 _create_of_family(request.family, project)
+            case wire.ProjectOfTour():
+                with folders.build_project(project) as draft:
+                    create_tour_project(draft, draft / ASSETS_FOLDER, project.name)
             case _:
                 assert_never(request)
         return project
@@ -155,7 +161,7 @@ def _innermost_folder(home: Path) -> Path:
 
 _LOG = logging.getLogger(__name__)
 
-MOST_RECENT = 30
+MOST_RECENT = 100
 """Projects that are remembered."""
 
 
@@ -173,6 +179,29 @@ class _Entry(JsonFile):
     name: str
     assets: int = 0
     opened: str = ""
+    state: str = ""
+    seen: float = 0.0
+
+
+def _describe_state(entry: _Entry) -> str:
+    """How far a project was when it was seen last, as far as its files are as they were; or why it cannot be read."""
+    folder = Path(entry.folder)
+    try:
+        read_settings(folder)
+        files = [folder / name for name in (SETTINGS, "program.mf", "events.jsonl", "signoffs.jsonl", "labels")]
+        changed = max(found[1] / 1e9 for file in files if (found := file_state(file)))
+    except MeshForgeError as error:
+        return error.message.split("\n")[0]
+    return entry.state if changed <= entry.seen else "changed since it was left"
+
+
+def _newest_picture(folder: Path) -> Path | None:
+    """The thumbnail of a project that was drawn last."""
+    with suppress(OSError):
+        found = os.scandir(Layout(folder).studio / "thumbnails")
+        rows = [entry for entry in found if entry.name.endswith(".png")]
+        return Path(max(rows, key=lambda entry: entry.stat().st_mtime_ns)) if rows else None
+    return None
 
 
 class _RecentFile(JsonFile):
@@ -197,15 +226,25 @@ class RecentProjects:
                 name=entry.name,
                 assets=entry.assets,
                 opened=entry.opened,
-                gone=not is_file(Path(entry.folder) / SETTINGS),
+                gone=(gone := not is_file(Path(entry.folder) / SETTINGS)),
+                state="" if gone else _describe_state(entry),
+                picture="" if gone else getattr(_newest_picture(Path(entry.folder)), "name", ""),
             )
             for entry in self._read().projects
         )
 
-    def add(self, folder: Path, name: str, assets: int) -> None:
-        """Put a project first."""
+    def find_picture(self, folder: str) -> Path | None:
+        """Return a thumbnail of a recent project, None where there is none."""
+        known = any(entry.folder == folder for entry in self._read().projects)
+        return _newest_picture(Path(folder)) if known else None
+
+    def add(self, folder: Path, name: str, assets: int, state: str | None = None) -> None:
+        """Put a project first. state: how far it is, in words; None leaves what was said before."""
         now = datetime.now(UTC).isoformat(timespec="seconds")
-        self._change(str(folder), _Entry(folder=str(folder), name=name, assets=assets, opened=now))
+        before = next((entry for entry in self._read().projects if entry.folder == str(folder)), None)
+        said = (before.state, before.seen) if state is None and before else (state or "", time())
+        row = _Entry(folder=str(folder), name=name, assets=assets, opened=now, state=said[0], seen=said[1])
+        self._change(row.folder, row)
 
     def forget(self, folder: str) -> None:
         """Take a project off the list; its files stay."""

@@ -2,10 +2,12 @@
 
 from typing import Literal
 
+from pydantic import Field
+
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
-JobKind = Literal["read", "apply", "decompose", "rebuild", "export", "add", "label", "check", "goal"]
+JobKind = Literal["read", "apply", "decompose", "preview", "rebuild", "export", "add", "label", "check", "goal"]
 JobStatus = Literal["done", "edited", "unchanged", "failed", "skipped"]
 
 
@@ -24,7 +26,8 @@ class JobLine(Wire):
 
 class Job(Wire):
     """Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
-    lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
+    left: [s] that they may still take at this rate, null where that is not known; lines: what became of assets, at
+    most 200: those that failed first, then those that were prepared before.
 
     message: its result in a sentence; out: the folder that was written.
     """
@@ -35,6 +38,7 @@ class Job(Wire):
     done: int = 0
     total: int = 0
     doing: str = ""
+    left: float | None = None
     state: Literal["running", "done", "failed", "cancelled"] = "running"
     message: str = ""
     lines: tuple[JobLine, ...] = ()
@@ -50,15 +54,31 @@ class ApplyJob(Wire):
     rebuild: bool = True
 
 
-class DecomposeJob(Wire):
-    """Make hulls for pieces and bodies that have none; method: the tool that makes them, null for what made those of
-    the project's other assets, else CoACD; by: of each piece as a whole, or of each of its parts by itself, where these
-    are known."""
+class DecomposeOptions(Wire):
+    """How hulls are made of what has none. method: the tool that makes them, null for what made those of the project's
+    other assets, else CoACD, whatever the rest says; by: of each piece as a whole, or of each of its parts by itself,
+    where these are known; most: hulls of a piece; threshold: of CoACD, the concavity at which splitting stops; null is
+    what the tool takes by itself."""
+
+    method: Literal["coacd", "vhacd"] | None = None
+    by: DecomposeBy = "whole"
+    most: int | None = Field(default=None, ge=1, le=4096)
+    threshold: float | None = Field(default=None, ge=0.01, le=1)
+
+
+class DecomposeJob(DecomposeOptions):
+    """Make hulls for pieces and bodies that have none."""
 
     kind: Literal["decompose"] = "decompose"
     assets: tuple[str, ...]
-    method: Literal["coacd", "vhacd"] | None = None
-    by: DecomposeBy = "whole"
+
+
+class PreviewJob(DecomposeOptions):
+    """Make the hulls of one asset to be looked at, and keep none. assets: those that they may be made for then."""
+
+    kind: Literal["preview"] = "preview"
+    asset: str
+    assets: tuple[str, ...]
 
 
 class RebuildJob(Wire):
@@ -91,4 +111,4 @@ class CheckJob(Wire):
     goal: str | None = None
 
 
-JobRequest = ApplyJob | DecomposeJob | RebuildJob | ExportJob | LabelJob | CheckJob
+JobRequest = ApplyJob | DecomposeJob | PreviewJob | RebuildJob | ExportJob | LabelJob | CheckJob

@@ -4,19 +4,22 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
+from meshforge.studio.wire.jobs import DecomposeOptions
 
 
 class RecentProject(Wire):
     """A project that was open before. assets: how many it had then; opened: when, as ISO 8601; gone: whether there is
-    no project in that folder any more."""
+    no project in that folder any more; state: how far it was then, or why it cannot be read now, empty where that is
+    not known; picture: the name of one of its thumbnails, empty where there is none."""
 
     folder: str
     name: str
     assets: int = 0
     opened: str = ""
     gone: bool = False
+    state: str = ""
+    picture: str = ""
 
 
 class FamilyOffer(Wire):
@@ -28,12 +31,14 @@ class FamilyOffer(Wire):
 
 
 class StartView(Wire):
-    """What the start page shows. places: folders to begin looking for assets in."""
+    """What the start page shows. places: folders to begin looking for assets in; tour: the folder that is offered for
+    the project of the guided tour."""
 
     version: str
     recent: tuple[RecentProject, ...]
     families: tuple[FamilyOffer, ...]
     places: tuple[str, ...]
+    tour: str
 
 
 class FolderEntry(Wire):
@@ -79,19 +84,14 @@ class AssetsFound(Wire):
     project: str
 
 
-Method = Literal["coacd", "vhacd"]
-
-
 class ProjectOfFolder(Wire):
-    """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
-    tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
-    parts by itself, where these are known."""
+    """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: how
+    hulls are made of what has none, null to leave it as it is."""
 
     kind: Literal["folder"] = "folder"
     folder: str
     project: str
-    decompose: Method | None = None
-    by: DecomposeBy = "whole"
+    decompose: DecomposeOptions | None = None
 
 
 class ProjectOfUpload(Wire):
@@ -99,8 +99,7 @@ class ProjectOfUpload(Wire):
 
     kind: Literal["upload"] = "upload"
     project: str
-    decompose: Method | None = None
-    by: DecomposeBy = "whole"
+    decompose: DecomposeOptions | None = None
 
 
 class ProjectOfFamily(Wire):
@@ -111,4 +110,11 @@ class ProjectOfFamily(Wire):
     project: str
 
 
-NewProject = Annotated[ProjectOfFolder | ProjectOfUpload | ProjectOfFamily, Field(discriminator="kind")]
+class ProjectOfTour(Wire):
+    """Make the project of the guided tour: the bundled tables with their labels."""
+
+    kind: Literal["tour"] = "tour"
+    project: str
+
+
+NewProject = Annotated[ProjectOfFolder | ProjectOfUpload | ProjectOfFamily | ProjectOfTour, Field(discriminator="kind")]

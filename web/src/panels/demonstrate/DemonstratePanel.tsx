@@ -4,7 +4,8 @@ import { useEffect } from "react";
 import { startCut } from "../../commands/demonstrate";
 import { perform } from "../../store/edits";
 import { followGuesses } from "../../store/guesses";
-import { makeHulls, useIsDecomposing } from "../../store/jobs";
+import { openDecompose } from "../../store/decompose";
+import { useIsDecomposing } from "../../store/jobs";
 import { followPreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { useAssetView } from "../../store/scenes";
@@ -82,7 +83,7 @@ function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
     <Button
       icon={Boxes}
       disabled={busy}
-      onClick={() => makeHulls([asset])}
+      onClick={() => openDecompose(asset)}
       tip="Decompose geometry without hulls into convex hulls"
     >
       {busy ? "Making hulls…" : `Make hulls of ${what}`}

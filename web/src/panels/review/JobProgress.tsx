@@ -1,9 +1,7 @@
-// Progress of a job with its rate, and a button that stops it.
+// Progress of a job with the time that is left, and a button that stops it.
 import { Square } from "lucide-react";
-import { useState } from "react";
-import { cancelJob } from "../../store/jobs";
-import { rateOf } from "../../store/reviews";
-import { capitalize, countText } from "../../store/words";
+import { cancelJob, progressText } from "../../store/jobs";
+import { capitalize } from "../../store/words";
 import { openAsset } from "../../store/workspace";
 import { useOwnNames } from "../../store/project";
 import { Button } from "../../ui/Button";
@@ -12,21 +10,13 @@ import { Note } from "../../ui/Section";
 import type { Job, JobLine } from "../../wire";
 import css from "./review.module.css";
 
-export function JobProgress(props: { job: Job; unit: string }) {
-  return <Part key={props.job.doing} {...props} />;
-}
-
-/** The part that is being done now, with a rate of its own. */
-function Part({ job, unit }: { job: Job; unit: string }) {
-  const [first] = useState(() => ({ done: job.done, at: performance.now() }));
-  const rate = rateOf(first, job.done, performance.now());
+export function JobProgress({ job, unit }: { job: Job; unit?: string }) {
   return (
     <div className={css.job}>
       <div className={css.split}>
         <span role="status">
           {job.doing && `${capitalize(job.doing)}: `}
-          {job.done.toLocaleString("en-GB")} of {countText(job.total, unit)}
-          {rate !== null && <span className={css.dim}> · {rate < 10 ? rate.toFixed(1) : Math.round(rate)} a second</span>}
+          {progressText(job, unit)}
         </span>
         <Button icon={Square} onClick={() => cancelJob(job.id)}>
           Stop

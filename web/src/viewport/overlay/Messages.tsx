@@ -1,9 +1,10 @@
 // What is said where there is nothing to see: loading, a problem, no hulls, no three-dimensional drawing.
 import { useEffect, useState } from "react";
-import { makeHulls } from "../../store/jobs";
+import { useDecompose } from "../../store/decompose";
 import { useProject } from "../../store/project";
 import { useScenes } from "../../store/scenes";
-import { Button } from "../../ui/Button";
+import { useWorkspace } from "../../store/workspace";
+import { MakeHulls } from "./MakeHulls";
 import css from "./overlay.module.css";
 
 const LOADING_DELAY = 150;
@@ -12,6 +13,9 @@ export function Messages() {
   const loading = useScenes((state) => state.loading);
   const problem = useScenes((state) => state.problem);
   const empty = useScenes(({ scene }) => (scene && scene.hulls.length === 0 ? scene.asset : null));
+  const asset = useWorkspace((workspace) => workspace.asset);
+  const makes = useDecompose(({ open, tried }) => asset !== null && (open === asset || tried?.asset === asset));
+  const bare = useProject(({ cards }) => cards[empty ?? ""]?.hulls === 0 && (cards[empty ?? ""]?.sources ?? 0) > 0);
   return (
     <>
       {loading && <Loading />}
@@ -22,7 +26,7 @@ export function Messages() {
           {problem.remedy && <p className={css.remedy}>{problem.remedy}</p>}
         </div>
       )}
-      {!problem && empty !== null && <NoHulls asset={empty} />}
+      {!problem && asset !== null && (makes || bare) ? <MakeHulls asset={asset} /> : !problem && empty !== null && <NoHulls />}
     </>
   );
 }
@@ -41,30 +45,15 @@ function Loading() {
   ) : null;
 }
 
-function NoHulls({ asset }: { asset: string }) {
-  const sources = useProject(({ cards }) => cards[asset]?.sources ?? 0);
+function NoHulls() {
   const edited = useScenes(({ scene }) => scene?.edit != null);
-  const make = () => makeHulls([asset]);
   return (
     <div className={css.message}>
       <h3>No hulls</h3>
-      {edited ? (
-        <p>The edits have removed all hulls of this asset.</p>
-      ) : sources > 0 ? (
-        <>
-          <p>This asset has no convex collision geometry yet. Decompose {pieces(sources)} that it has.</p>
-          <Button look="primary" onClick={make}>
-            Decompose into hulls
-          </Button>
-        </>
-      ) : (
-        <p>This file has no collision geometry and no geometry to make hulls from.</p>
-      )}
+      <p>{edited ? "The edits have removed all hulls of this asset." : "This file has no collision geometry and no geometry to make hulls from."}</p>
     </div>
   );
 }
-
-const pieces = (count: number): string => (count === 1 ? "the one piece" : `the ${count} pieces`);
 
 export function NoWebGl() {
   return (

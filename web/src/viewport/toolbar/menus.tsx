@@ -93,6 +93,7 @@ export function ShowingMenu() {
 
 function nameOf(showing: Showing): string {
   if (showing.kind === "source" || (showing.kind === "steps" && showing.steps === 0)) return "Original";
+  if (showing.kind === "hulls") return "Hulls to try";
   if (showing.kind === "steps") return `After step ${showing.steps}`;
   return showing.of === "program" ? "By the program" : "Written output";
 }
