@@ -1,4 +1,6 @@
 // Commands that look: from standard sides, at all or at the selection, in another manner, with a tool.
+import { perform } from "../store/edits";
+import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { notify } from "../store/toasts";
 import {
@@ -92,6 +94,12 @@ export const viewCommands = commandsOf("View", [
   toggleCommand("contacts", "Contact graph", ["C"]),
   toggleCommand("opaque", "Non-convex pieces", []),
   toggleCommand("grid", "Grid and axes", []),
+  ...(["Y", "Z"] as const).map((up) => ({
+    id: `up-${up}`,
+    title: `${up} points up in files that do not say`,
+    enabled: () => useProject.getState().project.up !== up,
+    run: () => perform({ kind: "up", up }),
+  })),
   compareCommand("slider", "Compare before and after with a line"),
   compareCommand("side", "Compare before and after side by side"),
 ]);

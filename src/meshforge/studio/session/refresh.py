@@ -16,6 +16,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
+from meshforge.studio.queries.assets import find_unclear_up
 from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.queries.project import add_session, build_card, build_project_view, vocabulary_view
 from meshforge.studio.wire.events import ProjectChanged
@@ -81,11 +82,11 @@ class Refresher:
         status = project.status(
             assets, others=self._rows.values(), progress=self._count_read, stop=self.queue.is_closed
         )
-        words, orient = project.words, project.settings.orient
+        words, settings = project.words, project.settings
         self._rows |= {row.id: row for row in status.assets}
         keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
         self._pages.set_cards(
-            build_card(row, words, orient, key, self._checks.faults_of(key))
+            build_card(row, words, settings.orient, settings.up, key, self._checks.faults_of(key))
             for row, key in zip(status.assets, keys, strict=True)
         )
         self._report_progress()
@@ -104,7 +105,8 @@ class Refresher:
         step = choose_next_step(add_session(family, *known, propagation, problem))
         if step.kind == "learn" and shown.learning:  # never what is being done already
             step = NextStep("learn", "The program is being learned.")
-        return build_project_view(project, step, problem, status.lost, propagation, new)
+        ask_up = find_unclear_up(project, self._pages.with_hulls)
+        return build_project_view(project, step, problem, status.lost, propagation, new, ask_up)
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""
