@@ -2,7 +2,7 @@
 import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
-import { notify } from "../store/toasts";
+import { dismissToast, lastProblem, notify } from "../store/toasts";
 import {
   lookFrom,
   setTool,
@@ -83,6 +83,13 @@ export const viewCommands = commandsOf("View", [
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().tool !== "select",
     run: () => setTool("select"),
+  },
+  {
+    id: "close-problem",
+    title: "Close the message of what went wrong",
+    keys: ["Escape"],
+    enabled: () => lastProblem() !== undefined,
+    run: () => dismissToast(lastProblem()?.id ?? 0),
   },
   ...sideCommands,
   lookCommand("iso", ["Numpad0"], isHere),
