@@ -159,17 +159,17 @@ def change_setting(folder: Path, key: str, value: TomlValue | None) -> None:
 
 def change_goal(folder: Path, name: str, text: str | None) -> None:
     """Keep what assets must do in the table [goals], or remove it by None; the caller holds the lock."""
-    path = folder / batch.SETTINGS
-    write_atomically(path, set_value(_read_text(path), name, text, table="goals"))
+    write_atomically(folder / batch.SETTINGS, edit_settings(folder, {name: text}, "goals"))
 
 
-def edit_settings(folder: Path, values: Mapping[str, TomlValue | None]) -> str:
-    """Return the text of meshforge.toml with some values changed; None removes one."""
+def edit_settings(folder: Path, values: Mapping[str, TomlValue | None], table: str | None = None) -> str:
+    """Return the text of meshforge.toml with some values changed, of the top level or of a table; None removes one."""
+    read_settings(folder)  # which says what is wrong with it
     path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
         for key, value in values.items():
-            text = set_value(text, key, value)
+            text = set_value(text, key, value, table)
     except ProjectError as error:
         raise error.at(str(path)) from None
     return text
@@ -238,7 +238,8 @@ def _read_text(path: Path) -> str:
             "this is no project", where=str(path.parent), remedy="Make one: meshforge new PROJECT ASSETS..."
         ) from error
     except UnicodeDecodeError as error:
-        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path)) from error
+        remedy = "Save it as UTF-8."
+        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path), remedy=remedy) from error
     except OSError as error:
         raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
 

@@ -234,7 +234,7 @@ class Store:
         text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
         gone = [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]
         if gone:
-            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
+            old, new = json.loads(path.read_bytes()), json.loads(text)
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
             text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"

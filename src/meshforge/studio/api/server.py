@@ -20,7 +20,7 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
-from meshforge.common import MeshForgeError, describe_error, describe_invalid_field
+from meshforge.common import MeshForgeError, describe_error, describe_invalid_field, explain_refusal
 from meshforge.store import ConflictError, NotHereError
 from meshforge.studio.api import connection, routes, start
 from meshforge.studio.api.address import ADDRESS, LastAddress
@@ -162,6 +162,8 @@ def _status_of(error: Exception) -> int:
 
 def _problem_of(error: Exception) -> Problem:
     """An error in its parts; a fault of the studio in one sentence."""
+    if isinstance(error, OSError):
+        error = explain_refusal(error) or error
     if isinstance(error, MeshForgeError):
         return Problem(
             message=error.problem,

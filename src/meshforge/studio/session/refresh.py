@@ -2,11 +2,13 @@
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import islice
 from threading import Condition, Thread
 from time import monotonic
+from typing import Any
 
 from meshforge.batch import read_stamp
 from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
@@ -57,7 +59,7 @@ class Refresher:
 
     def portion_size(self) -> int:
         """Return how many assets are looked at together: few, so that their cards come soon."""
-        return max(_FEWEST, len(self._project().assets()) // _PORTIONS)
+        return max(_FEWEST, self._pages.count // _PORTIONS)
 
     def refresh(self, assets: tuple[str, ...]) -> None:
         """Look at some assets, and at the project when none are left. Never raises."""
@@ -73,9 +75,11 @@ class Refresher:
 
     def _show_problem(self, problem: str) -> None:
         """What the settings say is shown with it: a refresh that began before they changed may have shown the old."""
-        project = self._project()
-        settings = {"vocabulary": vocabulary_view(project.words), "goals": list_goal_views(project)}
-        self._pages.change_project(problem=problem, **settings)
+        settings: dict[str, Any] = {}
+        with suppress(MeshForgeError):  # it may be the settings that cannot be read
+            project = self._project()
+            settings = {"vocabulary": vocabulary_view(project.words), "goals": list_goal_views(project)}
+        self._pages.show_problem(problem, **settings)
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         project = self._project()
