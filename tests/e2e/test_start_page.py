@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from playwright.sync_api import Browser
 from meshforge.project import Project
 from meshforge.samples import TABLES
 from tests.e2e.hand import hand, windows
-from tests.e2e.studio import Studio, ending, started
+from tests.e2e.legs import four_legged
+from tests.e2e.studio import PATIENCE, Studio, ending, opened, started
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.stools import write_bare_stool
@@ -71,3 +73,29 @@ def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(
     assert [hull.name for hull in made.mesh("a.urdf").hulls] == ["base/seat#0", *(f"base/leg#{k}" for k in range(4))]
     (step,) = made.preparation("a.urdf").steps
     assert step.settings["by"] == "parts"
+
+
+def test_a_studio_that_was_killed_is_started_again_and_its_page_goes_on(
+    tmp_path: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))
+    project = four_legged(tmp_path)
+    with windows(browser):
+        person = hand(browser)
+        with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio:
+            person.open(address(studio))
+            (kept,) = (tmp_path / "state" / "addresses").iterdir()
+            assert kept.stat().st_mode & 0o777 == 0o600
+            person.hull("leg_a")
+            studio.process.send_signal(signal.SIGKILL)
+            studio.process.wait(PATIENCE)
+            person.sees(f"Start it again by meshforge studio {project.folder}: this page goes on by itself.")
+            person.press("2")  # labels the hull, as soon as there is a server
+            person.sees("1 edit of this page waits to be saved.")
+        with opened(tmp_path, project.folder, "--page", str(PAGE)) as again:
+            assert (again.base, again.token) == (studio.base, studio.token)
+            person.sees("1 hull of t0.obj labelled first")
+            assert project.labels("t0.obj").labels["leg_a"].name == "first"
+            person.click("Undo")
+            person.sees("Undone: 1 hull of t0.obj labelled first")
+        assert not person.complaints

@@ -4,6 +4,7 @@ export type AnyEdit =
   | LabelHulls
   | SetVocabulary
   | RenameLabel
+  | SetUp
   | SetSteps
   | MoveRule
   | DeleteRule
@@ -146,6 +147,7 @@ export interface Everything {
   SetLandmarks: SetLandmarks;
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
+  SetUp: SetUp;
   SetVocabulary: SetVocabulary;
   ShapeRow: ShapeRow;
   ShapesHeader: ShapesHeader;
@@ -286,6 +288,13 @@ export interface RenameLabel {
   kind: "rename-label";
   old: string;
   new: string;
+}
+/**
+ * Set the axis that points up in views and pictures of assets whose format does not say.
+ */
+export interface SetUp {
+  kind: "up";
+  up: "Y" | "Z";
 }
 /**
  * Set the steps of an asset, one a rule, in order. version: of the steps that were changed.
@@ -567,7 +576,8 @@ export interface Reason {
  * An asset as it is prepared, in the frame it comes in.
  *
  * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
- * cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls.
+ * cannot turn it; y_up: whether, after the orientation, it turns Y up; version: of the steps, to be sent back with an
+ * edit of them; contacts: pairs of names of hulls.
  */
 export interface AssetView {
   asset: string;
@@ -579,6 +589,7 @@ export interface AssetView {
   near_misses: NearMiss[];
   upright: number[] | null;
   unturned: string | null;
+  y_up: boolean;
   steps: StepView[];
   version: string;
   manual_edits: ManualEditView[];
@@ -955,7 +966,8 @@ export interface Hello {
  * rules: what is demonstrated, by rule; templates: hull templates that actions can name; propagation: the last one of
  * labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
  * cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
- * kept, but not as part of the family.
+ * kept, but not as part of the family; up: as in the settings; ask_up: an asset on which to ask what is up, null where
+ * that is known.
  */
 export interface ProjectView {
   name: string;
@@ -974,6 +986,8 @@ export interface ProjectView {
   problem: string | null;
   lost: string[];
   left_out: string[];
+  up: "" | "Y" | "Z";
+  ask_up: string | null;
 }
 /**
  * A label of the vocabulary, or a class. text: as programs write it; color: `#rrggbb`, by its place; is_class:

@@ -34,7 +34,7 @@ def demo(
     studio: Annotated[
         bool, typer.Option("--studio", help="Open the tables in the browser, for you to show the steps; with a tour.")
     ] = False,
-    port: Port = 0,
+    port: Port = None,
     browser: Browser = True,
 ) -> None:
     """Run the whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report.
@@ -80,7 +80,7 @@ def _run_all(out: Path, workers: int | None) -> None:
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
-def _open_in_browser(out: Path, port: int, browser: bool) -> None:
+def _open_in_browser(out: Path, port: int | None, browser: bool) -> None:
     """The tables in the studio; those of an earlier time with all that was done there."""
     from meshforge.cli.studio import open_studio  # lazy: 330 modules that only --studio needs
     from meshforge.studio.session.session import StudioOptions  # lazy: 330 modules that only --studio needs

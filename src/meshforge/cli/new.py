@@ -1,7 +1,7 @@
 """`meshforge new`: a project folder for some assets."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -22,6 +22,10 @@ class NewArguments:
     orient: Annotated[
         str, typer.Option("--orient", help="How assets are turned first: '+Z: Is(leg) -> Is(panel)'.")
     ] = ""
+    up: Annotated[
+        Literal["Y", "Z"] | None,
+        typer.Option("--up", help="The axis that points up in pictures, where files do not say: OBJ, STL, PLY."),
+    ] = None
     method: Annotated[
         options.EngineMethod | None,
         typer.Option("--decompose", help="Make hulls of non-convex pieces, and of bodies without collision geometry."),
@@ -46,7 +50,7 @@ def new(given: NewArguments) -> None:
         )
     settings = options.parse_engine_settings(given.method, given.option, given.max_vertices) if given.method else None
     vocabulary = options.split_words(given.vocabulary)
-    project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient)
+    project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient, up=given.up or "")
     assets = project.assets()
     typer.echo(f"{given.project}: a project of {pluralize(len(assets), 'asset')}")
     failed = 0

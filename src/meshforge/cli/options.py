@@ -89,7 +89,12 @@ CollisionPlace = Annotated[
 AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
 
 Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
-Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
+Port = Annotated[
+    int | None,
+    typer.Option(
+        "--port", min=0, max=65535, help="Port on this machine; 0 takes a free one. [default: the last one, if free]"
+    ),
+]
 
 
 def _parse_gibibytes(text: str) -> int:

@@ -14,7 +14,7 @@ def studio(
     project: Annotated[
         Path | None, typer.Argument(help="A project folder; without it, the start page.", show_default=False)
     ] = None,
-    port: Port = 0,
+    port: Port = None,
     browser: Browser = True,
     export: Annotated[
         Path | None,
@@ -30,7 +30,7 @@ def studio(
     open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 
 
-def open_studio(options: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
+def open_studio(options: StudioOptions, *, port: int | None, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
 
     def announce(address: str) -> None:

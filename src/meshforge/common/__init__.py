@@ -13,7 +13,8 @@ __getattr__, __all__ = export_lazily(
         "messages": (
             "AssetError CollisionLossError DemonstrationError GeometryError HullNotFoundError MeshForgeError "
             "MissingFilesError PluginError ProgramError ProjectError StoppedError UsageError describe_error "
-            "escape_name escape_text format_share is_text join_and join_names nearest_name pluralize suggest_among "
+            "escape_name escape_text explain_refusal format_share is_text join_and join_names nearest_name pluralize "
+            "suggest_among "
             "suggest_match suggest_name to_text"
         ),
         "plugins": (

@@ -33,6 +33,7 @@ from meshforge.common.messages import UsageError as UsageError
 from meshforge.common.messages import describe_error as describe_error
 from meshforge.common.messages import escape_name as escape_name
 from meshforge.common.messages import escape_text as escape_text
+from meshforge.common.messages import explain_refusal as explain_refusal
 from meshforge.common.messages import format_share as format_share
 from meshforge.common.messages import is_text as is_text
 from meshforge.common.messages import join_and as join_and

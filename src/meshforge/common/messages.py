@@ -129,6 +129,25 @@ class MeshForgeError(Exception):
         return self.message
 
 
+def explain_refusal(error: OSError, where: str | None = None) -> MeshForgeError | None:
+    """Return what the system refused, with the remedy, about `where` unless it says; None for a fault of ours."""
+    name, why = error.filename, error.strerror
+    if not isinstance(name, str | None) or not isinstance(why, str) or not (name or error.errno == errno.ENOSPC):
+        return None
+    remedy = next((text for codes, text in _REMEDIES.items() if error.errno in codes), None)
+    return MeshForgeError(why, where=name or where or "while writing", remedy=remedy)
+
+
+_REMEDIES = {
+    (errno.ENOSPC, errno.EDQUOT): "Make room, then do the same again.",
+    (
+        errno.EACCES,
+        errno.EPERM,
+        errno.EROFS,
+    ): "Change the permissions of the file or its folder, then do the same again.",
+}
+
+
 def describe_error(error: Exception, where: str | None = None, fault: str = "please report it") -> str:
     """Return the message of whatever went wrong, about `where` unless it says; fault: what to do about one of our
     own."""
@@ -141,9 +160,8 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
         case UnicodeEncodeError(object=text, start=start) if not is_text(text):
             near = escape_name(text[max(start - 40, 0) : start + 40])
             return f"{where or 'in a file'}: a name is not UTF-8: {near}\n  Rename the file or folder."
-        case OSError(filename=str() | None as name, strerror=str() as why) if name or error.errno == errno.ENOSPC:
-            remedy = "\n  Make room, then run the same command again." * (error.errno in (errno.ENOSPC, errno.EDQUOT))
-            return f"{escape_name(name or where or 'while writing')}: {why}{remedy}"
+        case OSError() if refusal := explain_refusal(error, where):
+            return refusal.message
         case _:
             head = f"{escape_name(where)}: " if where else ""
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."

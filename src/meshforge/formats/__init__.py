@@ -17,8 +17,8 @@ __getattr__, __all__ = export_lazily(
         "plain.obj": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (
-            "FORMATS_BY_SUFFIX MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes format_for format_of "
-            "format_with_names is_asset is_description list_formats list_marked_formats notes_after path_of "
+            "FORMATS_BY_SUFFIX MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes format_for format_named "
+            "format_of format_with_names is_asset is_description list_formats list_marked_formats notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
         "segmentation": "POINTS_SUFFIXES AlignMode align_points points_beside read_segmentation",

@@ -37,6 +37,7 @@ from meshforge.formats.registry import SUFFIXES as SUFFIXES
 from meshforge.formats.registry import Source as Source
 from meshforge.formats.registry import all_suffixes as all_suffixes
 from meshforge.formats.registry import format_for as format_for
+from meshforge.formats.registry import format_named as format_named
 from meshforge.formats.registry import format_of as format_of
 from meshforge.formats.registry import format_with_names as format_with_names
 from meshforge.formats.registry import is_asset as is_asset

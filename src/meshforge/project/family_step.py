@@ -162,14 +162,15 @@ def _wait_for_learning(state: FamilyState) -> NextStep | None:
 
 def _continue_demonstration(state: FamilyState) -> NextStep | None:
     """Where just one asset is demonstrated and nothing else was done yet, more steps may come."""
-    example, *more = [asset for asset in state.assets if asset.demonstrated] or [None]
-    open_assets = [
-        asset for asset in state.assets if asset.hulls and asset.result_status.state in ("unknown", "needs review")
+    examples = [asset for asset in state.assets if asset.demonstrated]
+    others = [
+        asset.id
+        for asset in state.assets
+        if asset.hulls and not asset.demonstrated and asset.result_status.state in ("unknown", "needs review")
     ]
-    others = [asset.id for asset in open_assets if asset is not example]
-    if state.has_replies or not example or more or not others or any(asset.output != "none" for asset in state.assets):
+    if len(examples) != 1 or not others or state.has_replies or any(asset.output != "none" for asset in state.assets):
         return None
-    text = f"Show the next step on {example.id}, or see what the program does on {others[0]}."
+    text = f"Show the next step on {examples[0].id}, or see what the program does on {others[0]}."
     return _step(state, "demonstrate", text, asset=others[0])
 
 

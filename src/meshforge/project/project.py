@@ -25,7 +25,7 @@ from meshforge.project import (
 from meshforge.project.replies import reply_to
 from meshforge.project.review import review_project
 from meshforge.samples import TABLES, family_of, write_family
-from meshforge.store import MeshCache, Store, add_assets, create_folder
+from meshforge.store import MeshCache, Store, Up, add_assets, create_folder
 
 TABLE_ORIENT = "+Z: Is(leg) -> Is(panel)"
 
@@ -45,12 +45,14 @@ class Project(Store):
         name: str | None = None,
         vocabulary: Sequence[str] = (),
         orient: Orient | str | None = None,
+        up: Up = "",
     ) -> Self:
         """Make a project folder for some assets, given as files, folders and globs.
 
+        up: the axis that points up in views and pictures of assets whose format does not say, `Y` or `Z`.
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
-        return cls.open(create_folder(folder, assets, name, vocabulary, orient))
+        return cls.open(create_folder(folder, assets, name, vocabulary, orient, up))
 
     def with_cache(self, cache: MeshCache | None = None) -> Self:
         """Return the same project, whose meshes stay in memory as long as their files do not change."""

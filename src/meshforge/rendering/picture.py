@@ -66,7 +66,7 @@ def render(
     names: the name of each hull on it, or numbers with a legend below the picture, as `write_hull_names` has it.
     bounds: the box that the camera is framed on, to compare pictures; None frames the mesh.
     vocabulary: the order in which labels take their colours.
-    up: the axis that points up in the picture, by default that of the mesh's file, or Z.
+    up: the axis that points up in the picture, by default as `up_axis` has it.
     Raises UsageError for an unknown view or colouring, or an impossible size.
     """
     _check_arguments(views, color_by, size)
@@ -177,8 +177,8 @@ def build_subject(
 
 
 def up_axis(mesh: SymbolicMesh, up: Up | None = None) -> Up:
-    """Return the axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
-    return up or ("Y" if mesh.asset and mesh.asset.up == "y" else "Z")
+    """Return the axis that points up in a picture: the given one, or that of the mesh's file or project, or Z."""
+    return up or ("Y" if mesh.asset and (mesh.asset.seen_up or mesh.asset.up) == "y" else "Z")
 
 
 def render_meshes_of(hulls: Sequence[Hull]) -> list[RenderMesh]:

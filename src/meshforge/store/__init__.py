@@ -22,7 +22,7 @@ __getattr__, __all__ = export_lazily(
         "outputs": "AssetOutput find_outputs",
         "program": "ManualEditsFile DemonstrationFile ProgramRecord StepLine parse_action_text",
         "settings": (
-            "Settings VlmSettings add_assets change_goal create_folder edit_settings find_assets orientation "
+            "Settings Up VlmSettings add_assets change_goal create_folder edit_settings find_assets orientation "
             "orientation_text set_value toml_value"
         ),
         "sign_off": "ANSWERS AssessmentFile ConfidenceLine SignOff SignOffBasis find_changes",

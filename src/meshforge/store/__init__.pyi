@@ -44,6 +44,7 @@ from meshforge.store.program import ProgramRecord as ProgramRecord
 from meshforge.store.program import StepLine as StepLine
 from meshforge.store.program import parse_action_text as parse_action_text
 from meshforge.store.settings import Settings as Settings
+from meshforge.store.settings import Up as Up
 from meshforge.store.settings import VlmSettings as VlmSettings
 from meshforge.store.settings import add_assets as add_assets
 from meshforge.store.settings import change_goal as change_goal

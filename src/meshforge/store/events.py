@@ -244,9 +244,11 @@ def read_lines(path: Path) -> str:
         return path.read_text("utf-8-sig")
     except FileNotFoundError:
         return ""
-    except (OSError, UnicodeDecodeError) as error:
-        remedy = "Correct the file by hand, or remove it."
-        raise ProjectError("cannot be read", where=str(path), remedy=remedy) from error
+    except UnicodeDecodeError as error:
+        remedy = "Save it as UTF-8, or remove it."
+        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path), remedy=remedy) from error
+    except OSError as error:
+        raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
 
 
 def list_lines(text: str) -> Iterator[tuple[int, str]]:

@@ -18,11 +18,12 @@ MOST_MESHES = 400
 @dataclass(frozen=True, eq=False, slots=True)
 class _CacheEntry:
     """An asset as it was read. times: modification [ns] and size of its files; record: the digest of its preparation;
-    contact: the threshold that was set; labels: what its files of labels and classes held; mesh: with these."""
+    seen: the threshold that was set, and what is up; labels: what its files of labels and classes held; mesh: with
+    these."""
 
     times: FileStates
     record: str | None
-    contact: float | None
+    seen: tuple[float | None, str | None]
     labels: tuple[bytes, ...]
     mesh: symbolic.SymbolicMesh
 
@@ -62,17 +63,16 @@ class MeshCache:
 
     def _update(self, files: AssetFiles, cached: _CacheEntry | None) -> _CacheEntry:
         labels = tuple(path.read_bytes() if path.exists() else b"" for path in (files.labels, files.classes))
-        record = record_digest(files.preparation)
-        is_current = cached and (cached.record, cached.contact) == (record, files.contact)
+        record, seen = record_digest(files.preparation), (files.contact, files.up)
+        is_current = cached and (cached.record, cached.seen) == (record, seen)
         if not cached or not is_current or file_states(cached.times) != cached.times:
             times = file_states([*source_files(files.path), files.path])
             try:
                 source = self._read_asset(files.path, files.preparation)
             except MeshForgeError as error:
                 raise error.at(str(files.path)) from None
-            mesh = symbolic.SymbolicMesh.of(source)
-            mesh = mesh if files.contact is None else replace(mesh, epsilon=files.contact)
-            cached = _CacheEntry(times | file_states(source.files), record, files.contact, (b"", b""), mesh)
+            times |= file_states(source.files)
+            cached = _CacheEntry(times, record, seen, (b"", b""), files.to_mesh(source))
         if cached.labels == labels:
             return cached
         plain = cached.mesh.with_labels(dict.fromkeys(cached.mesh.index))

@@ -215,7 +215,8 @@ def _read_facts(work: _AssetPaths) -> AssetFacts:
 class AssetFiles:
     """What one asset is read from, in this process or another.
 
-    classes: what stands where a hull has no label; contact: the threshold, None for the language's own.
+    classes: what stands where a hull has no label; contact: the threshold, None for the language's own; up: the axis
+    that points up in pictures where the format does not say, None for Z.
     """
 
     path: Path
@@ -223,12 +224,18 @@ class AssetFiles:
     labels: Path
     classes: Path
     contact: float | None
+    up: Literal["y", "z"] | None = None
 
     def read_mesh(self) -> symbolic.SymbolicMesh:
         """Return the asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-        source = batch.read_prepared(self.path, self.preparation)
-        labelled = symbolic.transfer_labels(self.read_labels(), symbolic.SymbolicMesh.of(source)).mesh
-        return labelled if self.contact is None else replace(labelled, epsilon=self.contact)
+        mesh = self.to_mesh(batch.read_prepared(self.path, self.preparation))
+        return symbolic.transfer_labels(self.read_labels(), mesh).mesh
+
+    def to_mesh(self, source: symbolic.Asset) -> symbolic.SymbolicMesh:
+        """Return the asset that was read as the project sees it, without labels."""
+        known = formats.format_named(source.format)
+        mesh = symbolic.SymbolicMesh.of(source).with_seen_up(None if known and known.up else self.up)
+        return mesh if self.contact is None else replace(mesh, epsilon=self.contact)
 
     def read_labels(self) -> symbolic.LabelFile:
         """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be

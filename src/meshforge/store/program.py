@@ -28,8 +28,8 @@ class ProgramRecord(JsonFile):
 def write_program(layout: Layout, program: language.Program) -> None:
     """Write a program; the one that it replaces stays as `program.previous.mf`."""
     path, text = layout.program, str(program)
-    old = path.read_text(encoding="utf-8") if path.exists() else text
-    if old != text:
+    old = path.read_bytes() if path.exists() else text.encode()  # which may be no text in UTF-8
+    if old != text.encode():
         write_atomically(layout.previous_program, old)
     write_atomically(path, text)
 

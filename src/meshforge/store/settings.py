@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
@@ -19,6 +19,7 @@ from meshforge.symbolic import refuse_class_names
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Fraction = Annotated[float, Field(gt=0, le=1)]
+Up = Literal["", "Y", "Z"]
 TomlValue = str | float | Sequence[str]
 
 
@@ -79,6 +80,7 @@ class Settings(BaseModel):
 
     assets: files, folders and globs, relative to the project; base: the folder that ids count from.
     orient: the directive as a program has it, without the word `orient`; empty for none.
+    up: the axis that points up in views and pictures of assets whose format does not say; empty for not known, then Z.
     names: the label that names mean, by patterns of names, in their order; empty for none.
     left_out, removed: ids of assets that are not of the family, as earlier versions noted them here; urdf_capsules:
     whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules may use; goals:
@@ -92,6 +94,7 @@ class Settings(BaseModel):
     base: str
     vocabulary: tuple[str, ...] = ()
     orient: str = ""
+    up: Up = ""
     thresholds: Thresholds = Thresholds()
     vlm: VlmSettings = VlmSettings()
     names: dict[str, str] = {}
@@ -100,6 +103,11 @@ class Settings(BaseModel):
     urdf_capsules: bool = False
     extractors: tuple[str, ...] = ()
     goals: dict[str, str] = {}
+
+    @property
+    def seen_up(self) -> Literal["y", "z"] | None:
+        """The axis as assets have it."""
+        return "y" if self.up == "Y" else "z" if self.up else None
 
 
 def read_settings(folder: Path) -> Settings:
@@ -136,11 +144,13 @@ vocabulary = {vocabulary}
 # How assets are turned before the program sees them, for example "+Z: Is(leg) -> Is(panel)".
 orient = {toml_value(settings.orient)}
 """
+    if settings.up:
+        text += f"# What points up in pictures: OBJ, STL and PLY files do not say.\nup = {toml_value(settings.up)}\n"
     write_atomically(folder / batch.SETTINGS, text)
 
 
-def change_setting(folder: Path, key: str, value: TomlValue) -> None:
-    """Change one value of meshforge.toml; all else stays as its owner wrote it."""
+def change_setting(folder: Path, key: str, value: TomlValue | None) -> None:
+    """Change one value of meshforge.toml, or remove it by None; all else stays as its owner wrote it."""
     path = folder / batch.SETTINGS
     edited = edit_settings(folder, {key: value})
     if edited != _read_text(path):
@@ -149,17 +159,17 @@ def change_setting(folder: Path, key: str, value: TomlValue) -> None:
 
 def change_goal(folder: Path, name: str, text: str | None) -> None:
     """Keep what assets must do in the table [goals], or remove it by None; the caller holds the lock."""
-    path = folder / batch.SETTINGS
-    write_atomically(path, set_value(_read_text(path), name, text, table="goals"))
+    write_atomically(folder / batch.SETTINGS, edit_settings(folder, {name: text}, "goals"))
 
 
-def edit_settings(folder: Path, values: Mapping[str, TomlValue | None]) -> str:
-    """Return the text of meshforge.toml with some values changed; None removes one."""
+def edit_settings(folder: Path, values: Mapping[str, TomlValue | None], table: str | None = None) -> str:
+    """Return the text of meshforge.toml with some values changed, of the top level or of a table; None removes one."""
+    read_settings(folder)  # which says what is wrong with it
     path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
         for key, value in values.items():
-            text = set_value(text, key, value)
+            text = set_value(text, key, value, table)
     except ProjectError as error:
         raise error.at(str(path)) from None
     return text
@@ -228,7 +238,8 @@ def _read_text(path: Path) -> str:
             "this is no project", where=str(path.parent), remedy="Make one: meshforge new PROJECT ASSETS..."
         ) from error
     except UnicodeDecodeError as error:
-        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path)) from error
+        remedy = "Save it as UTF-8."
+        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path), remedy=remedy) from error
     except OSError as error:
         raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
 
@@ -247,6 +258,7 @@ def create_folder(
     name: str | None,
     vocabulary: Sequence[str],
     orient: language.Orient | str | None,
+    up: Up,
 ) -> Path:
     """Make a project folder, and give its absolute path. Raises as `Project.create` does."""
     if not str(folder):
@@ -264,6 +276,7 @@ def create_folder(
         base=path_seen_from(folder, str(found.base)),
         vocabulary=tuple(vocabulary),
         orient=text,
+        up=up,
     )
     write_settings(folder, settings)
     _merge_events_by_lines(folder / ".gitattributes")

@@ -98,6 +98,11 @@ class Store:
         with self.lock():
             settings_file.change_setting(self.folder, "orient", settings_file.orientation_text(directive))
 
+    def set_up(self, up: settings_file.Up) -> None:
+        """Set the axis that points up in pictures of assets whose format does not say; empty for not known."""
+        with self.lock():
+            settings_file.change_setting(self.folder, "up", up or None)
+
     def add_extractors(self, names: Sequence[str]) -> None:
         """Let rules use leaf extractors of plug-ins, from now on. Raises UsageError where there is none of a name,
         PluginError where one cannot be loaded."""
@@ -155,9 +160,9 @@ class Store:
 
     def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
         """Return what each of some assets is read from, for reading it in another process."""
-        layout, contact = self.layout, self.settings.thresholds.contact
+        layout, contact, up = self.layout, self.settings.thresholds.contact, self.settings.seen_up
         return tuple(
-            AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), layout.classes(a), contact)
+            AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), layout.classes(a), contact, up)
             for a in assets
         )
 
@@ -229,7 +234,7 @@ class Store:
         text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
         gone = [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]
         if gone:
-            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
+            old, new = json.loads(path.read_bytes()), json.loads(text)
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
             text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"

@@ -176,7 +176,8 @@ def read_pair(work: MeasureTask) -> OutputPair:
         raise ProjectError("the asset changed since its output was made", where=asset, remedy=_REMEDY)
     if not stamp.is_whole(project.layout.edited):
         raise ProjectError("files of its output are gone or changed", where=asset, remedy=_REMEDY)
-    return OutputPair(project.mesh(asset), load(project.layout.edited / stamp.out))
+    before, after = project.mesh(asset), load(project.layout.edited / stamp.out)
+    return OutputPair(before, after.with_seen_up(before.asset.seen_up) if before.asset else after)
 
 
 def _is_unchanged(project: Project, asset: str, stamp: Stamp) -> bool:

@@ -9,6 +9,7 @@ from threading import Lock, RLock
 from typing import Any
 
 from meshforge.engines import ENGINES
+from meshforge.project import NextStep
 from meshforge.store.history import HistoryState
 from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire import Wire, events
@@ -115,6 +116,10 @@ class PageState:
         """Show the project with some of its fields changed."""
         with self._lock:
             self.show(events.ProjectChanged(project=self._rest.project.model_copy(update=fields)))
+
+    def show_problem(self, problem: str, **fields: Any) -> None:
+        """Show why nothing can be done with the project, which is what is next."""
+        self.change_project(problem=problem, next=NextStep("wait", problem), **fields)
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""

@@ -42,7 +42,7 @@ def _draw(project: Project, asset: str, of: ThumbnailOf, wanted: str, target: Pa
     source = project.mesh(asset)
     digests = {hull.name: digest(hull.shape) for hull in source.hulls}
     labels = [hull.annotation for hull in source.hulls]
-    present = picture_digest(geometry_digest(digests), labels, project.settings.orient)
+    present = picture_digest(geometry_digest(digests), labels, project.settings.orient, project.settings.up)
     shown = source
     if of == "output":
         stamp = read_stamp(project.layout.edited, asset)

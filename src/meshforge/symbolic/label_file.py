@@ -122,7 +122,7 @@ def _load_json(content: bytes, path: Path) -> Any:
     try:
         return json.loads(content.decode("utf-8-sig"), object_pairs_hook=_reject_duplicates)
     except UnicodeDecodeError as error:
-        raise AssetError("the labels are not UTF-8 text", where=str(path)) from error
+        raise AssetError("the labels are not UTF-8 text", where=str(path), remedy=_REMEDY) from error
     except json.JSONDecodeError as error:
         place = f"{path}:{error.lineno}:{error.colno}"
         raise AssetError(f"the labels are no JSON ({error.msg})", where=place, remedy=_REMEDY) from error

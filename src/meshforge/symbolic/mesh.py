@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import import_module
 from math import dist
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 
@@ -197,6 +197,10 @@ class SymbolicMesh:
             reach = self.contact_distance * NEAR_MISS
             edited.set_known_graph(contact_graph([h.shape for h in edited.hulls], reach, self.known_graph, kept))
         return edited
+
+    def with_seen_up(self, up: Literal["y", "z"] | None) -> Self:
+        """Return the mesh with another `seen_up` of its asset."""
+        return replace(self, asset=replace(self.asset, seen_up=up)) if self.asset else self
 
     def to_asset(self) -> Asset:
         """Return the asset with the hulls of this mesh as its geoms. Raises MeshForgeError for one made in memory."""

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.geometry import Cylinder, Pose, Shape, Sphere, convex_hull
 from meshforge.language import to_canonical_frame
 from meshforge.project import Project
-from meshforge.studio.queries.assets import build_asset_view, compute_upright
+from meshforge.rendering import render
+from meshforge.store import History
+from meshforge.studio.edits.assets import SetUp
+from meshforge.studio.edits.base import make_edit
+from meshforge.studio.queries.assets import build_asset_view, compute_upright, draw_thumbnail, find_unclear_up
 from meshforge.studio.queries.packets import hull_views, pack_asset, pack_visual
 from meshforge.symbolic import Asset, Body, Document, Geom, NonConvexPiece, Surface, SymbolicMesh
 from meshforge.synthesis import Step
 from tests.program_parts import parse_action
 from tests.studio_project import demo_project
+from tests.unit.batch.families import tree
+from tests.unit.project.tables import FIRST, applied, demonstrated
 from tests.unit.studio.packets import read_packet
 
 TABLE = "table_03.obj"
@@ -139,3 +147,46 @@ def test_a_file_whose_y_points_up_is_shown_with_z_up(project: Project, tmp_path:
     turned = compute_upright(project, standing)[0].rotation
     assert np.array_equal(turned, compute_upright(project, mesh)[0].rotation)
     assert np.array_equal(turned, compute_upright(plain, standing, project.orientation)[0].rotation)
+
+
+def test_what_a_project_says_is_up_is_for_pictures_alone(tmp_path: Path) -> None:
+    standing, lying = applied(tmp_path / "standing"), demonstrated(tmp_path / "lying")
+    before = {name: data for name, data in tree(lying.folder).items() if name != "meshforge.toml"}
+    lying.set_up("Y")
+    lying.synthesize()
+    list(lying.apply(execution=IN_PROCESS))
+    assert lying.program() == standing.program()
+    assert tree(lying.layout.edited) == tree(standing.layout.edited)
+    assert {name: tree(lying.folder)[name] for name in before} == before
+
+    for asset in lying.assets():
+        lie_down(lying.path(asset))
+    picture, other = (
+        draw_thumbnail(one.mesh(FIRST), compute_upright(one, one.mesh(FIRST))[0]) for one in (standing, lying)
+    )
+    assert picture == other
+    assert np.mean(np.asarray(render(lying.mesh(FIRST))) != np.asarray(render(standing.mesh(FIRST)))) < 0.01
+    assert build_asset_view(lying, FIRST, lying.mesh(FIRST)).y_up
+    lying.set_up("Z")
+    assert compute_upright(lying, lying.mesh(FIRST))[0].rotation.tolist() == np.eye(3).tolist()
+
+
+def lie_down(path: Path) -> None:
+    """Turn an OBJ file so that Y points up."""
+    turned = re.sub(r"^v (\S+) (\S+) (\S+)", lambda v: f"v {v[1]} {v[3]} {-float(v[2])}", path.read_text(), flags=re.M)
+    path.write_text(turned)
+
+
+def test_what_is_up_is_asked_once_and_not_where_it_is_known(tmp_path: Path) -> None:
+    project = demo_project(tmp_path, orient="")
+    ids = project.assets()
+    assert find_unclear_up(project, ids) is None, "all stand on z = 0"
+    lie_down(project.path(ids[0]))
+    assert find_unclear_up(project, ids) == ids[0]
+    history = History.open(project.folder)
+    make_edit(history, project, SetUp(up="Z"))
+    assert find_unclear_up(project, ids) is None, "it was answered"
+    history.undo()
+    assert find_unclear_up(project, ids) == ids[0]
+    project.set_orientation("+Z: Is(leg) -> Is(panel)")
+    assert find_unclear_up(project, ids) is None, "landmarks say it"

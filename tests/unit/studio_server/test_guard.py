@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
 
 import pytest
 from starlette.applications import Starlette
@@ -10,6 +12,8 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from meshforge.common import UsageError
+from meshforge.studio.api.address import LastAddress
 from meshforge.studio.api.connection import PROTOCOL, Guard
 
 TOKEN = "a-token_1"
@@ -61,3 +65,27 @@ def test_a_socket_offers_its_token_beside_the_protocol(client: TestClient) -> No
 def test_a_socket_without_its_token_is_refused(client: TestClient, address: str, offered: list[str]) -> None:
     with pytest.raises(WebSocketDisconnect), client.websocket_connect(f"ws://127.0.0.1{address}", subprotocols=offered):
         pass
+
+
+def _listen(address: LastAddress, port: int | None = None) -> tuple[int, str]:
+    listening, token = address.listen(port)
+    with closing(listening):
+        return listening.getsockname()[1], token
+
+
+def test_a_studio_takes_its_last_port_and_token_unless_another_has_it(tmp_path: Path) -> None:
+    project, other = (LastAddress(tmp_path, tmp_path / name) for name in ("project", "other"))
+    first = _listen(project)
+    assert _listen(project) == first
+    assert _listen(other)[1] != first[1]
+    with closing(project.listen(None)[0]):
+        with pytest.raises(UsageError, match=f"port {first[0]} cannot be taken"):
+            project.listen(first[0])
+        second = _listen(project)
+    assert second[0] != first[0]
+    assert second[1] != first[1], "the port is another"
+    assert _listen(project, second[0]) == second
+    for file in tmp_path.rglob("*.json"):
+        assert file.stat().st_mode & 0o777 == 0o600
+        file.chmod(0o644)
+    assert _listen(project, second[0])[1] != second[1], "others could read it"

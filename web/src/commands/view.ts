@@ -1,6 +1,8 @@
 // Commands that look: from standard sides, at all or at the selection, in another manner, with a tool.
+import { perform } from "../store/edits";
+import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
-import { notify } from "../store/toasts";
+import { dismissToast, lastProblem, notify } from "../store/toasts";
 import {
   lookFrom,
   setTool,
@@ -82,6 +84,13 @@ export const viewCommands = commandsOf("View", [
     enabled: needs("No tool is in hand.", () => useWorkspace.getState().tool !== "select"),
     run: () => setTool("select"),
   },
+  {
+    id: "close-problem",
+    title: "Close the message of what went wrong",
+    keys: ["Escape"],
+    enabled: needs("No message is shown.", () => lastProblem() !== undefined),
+    run: () => dismissToast(lastProblem()?.id ?? 0),
+  },
   ...sideCommands,
   lookCommand("iso", ["Numpad0"], isHere),
   { id: "fit", title: "Fit all into the view", keys: ["Home"], enabled: isHere, run: () => lookFrom("fit") },
@@ -92,6 +101,12 @@ export const viewCommands = commandsOf("View", [
   toggleCommand("contacts", "Contact graph", ["C"]),
   toggleCommand("opaque", "Non-convex pieces", []),
   toggleCommand("grid", "Grid and axes", []),
+  ...(["Y", "Z"] as const).map((up) => ({
+    id: `up-${up}`,
+    title: `${up} points up in files that do not say`,
+    enabled: needs(`${up} points up already.`, () => useProject.getState().project.up !== up),
+    run: () => perform({ kind: "up", up }),
+  })),
   compareCommand("slider", "Compare before and after with a line"),
   compareCommand("side", "Compare before and after side by side"),
 ]);

@@ -15,13 +15,15 @@ interface ThumbnailProps {
   highlight?: readonly number[] | undefined;
   /** The directive by which it is turned, in place of the project's. */
   turned?: string | null;
+  /** What is up, in place of what the project says. */
+  up?: "y" | "z";
   /** Width in CSS pixels; it fills its place without. */
   size?: number;
   /** What a screen reader says; empty where words beside it say the same. */
   label?: string;
 }
 
-export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned, size, label }: ThumbnailProps) {
+export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned, up, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
   const confidence = useProject(({ cards }) => cards[asset]?.confidence);
@@ -47,7 +49,7 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned,
   );
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
-  const url = turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);
+  const url = up ? api.withUp(asset, up, version) : turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);
   return <IdPicture url={url} label={said} colors={colors} fill={fill} width={size} />;
 });
 

@@ -55,6 +55,7 @@ export const api = {
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     withQuery("api/thumbnail", { asset, of, v: version }),
   turned: (asset: string, orient: string, run: number) => withQuery("api/turned", { asset, orient, run }),
+  withUp: (asset: string, up: "y" | "z", version: string) => withQuery("api/turned", { asset, up, version }),
   checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckResult>("api/checked", { asset, part }, stop),
   checkPictures: (asset: string, part: CheckResult["part"], unit: "m" | "mm", stop: AbortSignal) =>

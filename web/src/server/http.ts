@@ -2,13 +2,18 @@
 import type { Problem } from "../wire";
 
 export class ServerProblem extends Error {
+  /** act: what was asked for, as `answers` has it. */
   constructor(
     readonly problem: Problem,
     readonly status: number,
+    readonly act: string | null = null,
   ) {
     super(problem.message);
   }
 }
+
+/** Who is called with each act that succeeds: an address, and of what is sent its kind and asset. */
+export const answers = new Set<(act: string) => void>();
 
 let token = "";
 export const page = Math.random().toString(36).slice(2, 10);
@@ -70,8 +75,16 @@ async function request(path: string, init: RequestInit): Promise<Response> {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new ServerProblem(unreachable, 0);
   }
-  if (!answer.ok) throw new ServerProblem(await problemOf(answer), answer.status);
+  const act = actOf(path, init);
+  if (!answer.ok) throw new ServerProblem(await problemOf(answer), answer.status, act);
+  for (const hear of answers) hear(act);
   return answer;
+}
+
+function actOf(path: string, { body }: RequestInit): string {
+  if (typeof body !== "string") return path;
+  const { kind, asset } = JSON.parse(body) as { kind?: unknown; asset?: unknown };
+  return [path, kind, asset].filter((word) => typeof word === "string").join(" ");
 }
 
 const unreachable: Problem = {

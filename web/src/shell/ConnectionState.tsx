@@ -1,20 +1,49 @@
 // What is said when there is no connection: before the first word of the server, and after it is lost.
-import { Unplug } from "lucide-react";
+import { Copy, Unplug } from "lucide-react";
+import { useEffect } from "react";
+import { useUnsaved } from "../store/edits";
+import { reportError } from "../store/toasts";
+import { countText } from "../store/words";
+import { Button } from "../ui/Button";
 import { Wordmark } from "../ui/Wordmark";
-import { useConnection } from "./connection";
+import { startCommand, useConnection } from "./connection";
 import css from "./connection.module.css";
 
-const REFUSED = "The studio of this page has stopped. Open the address that the terminal shows.";
-const LOST = "Connection lost; trying again. Your confirmed edits are saved.";
+const REFUSED = "Another studio answers here now. Open the address that the terminal shows.";
+const LOST = "Connection lost; trying again.";
 
 export function ConnectionBar() {
   const state = useConnection((connection) => connection.state);
-  if (state !== "lost" && state !== "refused") return null;
+  const unsaved = useUnsaved(({ count }) => count);
+  useEffect(() => {
+    if (!unsaved) return;
+    const warn = (event: BeforeUnloadEvent) => event.preventDefault();
+    addEventListener("beforeunload", warn);
+    return () => removeEventListener("beforeunload", warn);
+  }, [unsaved]);
+  if (state === "connecting" || state === "open") return null;
+  const kept = unsaved ? `${countText(unsaved, "edit")} of this page ${unsaved === 1 ? "waits" : "wait"} to be saved.` : "All edits are saved.";
   return (
     <div className={css.bar} role="alert" data-state={state}>
       <Unplug size={14} aria-hidden />
-      {state === "lost" ? LOST : REFUSED}
+      <Reason state={state} /> {kept}
     </div>
+  );
+}
+
+/** Why there is no connection, and what to do. */
+function Reason({ state }: { state: "lost" | "stopped" | "refused" }) {
+  if (state !== "stopped") return <span>{state === "lost" ? LOST : REFUSED}</span>;
+  const command = startCommand();
+  return (
+    <>
+      <span>
+        The studio was stopped. Start it again by <code>{command}</code>: this page goes on by itself.
+      </span>
+      <Button icon={Copy} onClick={() => void navigator.clipboard.writeText(command).catch(reportError)}>
+        Copy
+      </Button>
+    </>
   );
 }
 
@@ -24,16 +53,14 @@ export function Welcome() {
   return (
     <div className={css.welcome}>
       <Wordmark large />
-      {state === "refused" ? (
-        <p role="alert">{REFUSED}</p>
-      ) : state === "lost" ? (
-        <p role="alert">
-          The studio does not answer; trying again. Start it in a terminal: <code>meshforge studio</code>
-        </p>
-      ) : (
+      {state === "connecting" || state === "open" ? (
         <p role="status" className={css.opening}>
           Opening the project…
         </p>
+      ) : (
+        <div role="alert">
+          <Reason state={state} />
+        </div>
       )}
     </div>
   );

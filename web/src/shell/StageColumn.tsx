@@ -5,6 +5,7 @@ import { type ComponentType, useRef } from "react";
 import { DemonstratePanel } from "../panels/demonstrate/DemonstratePanel";
 import { LabelPanel } from "../panels/label/LabelPanel";
 import { LearnPanel } from "../panels/learn/LearnPanel";
+import { UpCard } from "../panels/questions/UpCard";
 import { ReviewPanel } from "../panels/review/ReviewPanel";
 import { nextText, useIsThere } from "../store/nextStep";
 import { useProject } from "../store/project";
@@ -43,6 +44,7 @@ export function StageColumn() {
         ))}
       </Tabs.List>
       <NextLine />
+      <UpCard />
       {STAGES.map((name) => (
         <Tabs.Content key={name} value={name} className={css.content} tabIndex={-1}>
           <Panel stage={name} />

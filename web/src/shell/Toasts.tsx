@@ -1,5 +1,5 @@
 // Short messages at the foot of the right column, which they shorten, so that they lie over nothing: what was done
-// fades, what went wrong stays.
+// fades, what went wrong stays until it is mended or closed, or for a minute in which a person did something.
 import { Check, CircleX, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { undo } from "../store/edits";
@@ -8,7 +8,10 @@ import { Button, IconButton } from "../ui/Button";
 import { whilePointed } from "../ui/whilePointed";
 import css from "./toasts.module.css";
 
-const FADES_AFTER = 6000; // ms
+const FADES_AFTER = { done: 6000, problem: 60_000 }; // ms
+
+let lastAct = 0;
+for (const kind of ["pointermove", "keydown"]) addEventListener(kind, () => (lastAct = Date.now()), { passive: true, capture: true });
 
 export function Toasts() {
   const toasts = useToasts((state) => state.toasts);
@@ -28,12 +31,13 @@ const line = (toast: Toast) => <ToastLine key={toast.id} toast={toast} />;
 
 function ToastLine({ toast }: { toast: Toast }) {
   const [held, setHeld] = useState(false);
-  const fades = toast.kind === "done" && !held;
   useEffect(() => {
-    if (!fades) return;
-    const timer = setTimeout(() => dismissToast(toast.id), FADES_AFTER);
-    return () => clearTimeout(timer);
-  }, [fades, toast.id]);
+    if (held) return;
+    const since = Date.now();
+    const end = () => (toast.kind === "done" || lastAct > since) && dismissToast(toast.id);
+    const timer = setInterval(end, FADES_AFTER[toast.kind]);
+    return () => clearInterval(timer);
+  }, [held, toast]);
   const Icon = toast.kind === "done" ? Check : CircleX;
   return (
     <div
@@ -57,7 +61,7 @@ function ToastLine({ toast }: { toast: Toast }) {
           Undo
         </Button>
       )}
-      <IconButton icon={X} name="Dismiss" onClick={() => dismissToast(toast.id)} />
+      <IconButton icon={X} name="Dismiss" {...(toast.kind === "problem" && { keys: "Escape" })} onClick={() => dismissToast(toast.id)} />
     </div>
   );
 }

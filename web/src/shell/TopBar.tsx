@@ -5,7 +5,7 @@ import { api } from "../server/api";
 import { progressText } from "../store/jobs";
 import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
-import { reportError } from "../store/toasts";
+import { reportError, useToasts } from "../store/toasts";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { ThemeMenu } from "../ui/ThemeMenu";
@@ -33,6 +33,7 @@ export function TopBar() {
       <History />
       <span className={css.space} />
       <Learning />
+      <Problems />
       <Jobs />
       <ThemeMenu />
       <IconButton
@@ -65,6 +66,31 @@ function Learning() {
         </span>
       )}
     </span>
+  );
+}
+
+/** What went wrong of late, also what is not shown any more. */
+function Problems() {
+  const problems = useToasts((state) => state.problems);
+  if (problems.length === 0) return null;
+  return (
+    <Popover.Root>
+      <Popover.Trigger className={css.jobButton}>Problems {problems.length}</Popover.Trigger>
+      <Popover.Portal>
+        <Popover.Content className={css.jobs} align="end" sideOffset={5} aria-label="Problems">
+          <ul>
+            {problems.map(({ id, at, text, remedy }) => (
+              <li key={id} className={css.job}>
+                <p>
+                  <time dateTime={at.toISOString()}>{at.toLocaleTimeString("en-GB")}</time> {text}
+                </p>
+                {remedy && <p className={css.message}>{remedy}</p>}
+              </li>
+            ))}
+          </ul>
+        </Popover.Content>
+      </Popover.Portal>
+    </Popover.Root>
   );
 }
 

@@ -19,10 +19,21 @@ import {
 } from "../store/workspace";
 import type { Event } from "../wire";
 
-/** refused: the server is another one than that whose token this page has. */
-export const useConnection = create<{ state: "connecting" | "open" | "lost" | "refused" }>()(() => ({
+/** stopped: it did not answer for some tries; refused: the server is another one than that whose token this page has. */
+export const useConnection = create<{ state: "connecting" | "open" | "lost" | "stopped" | "refused" }>()(() => ({
   state: "connecting",
 }));
+
+/** Tries without an answer after which the studio counts as stopped: some seconds. */
+const TRIES = 4;
+let tries = 0;
+
+/** What starts the studio of this page again. */
+export function startCommand(): string {
+  const { ready, leave, project } = useProject.getState();
+  if (!ready || leave) return "meshforge studio";
+  return `meshforge studio ${/^[\w./-]+$/.test(project.folder) ? project.folder : `'${project.folder.replaceAll("'", "'\\''")}'`}`;
+}
 
 export function connect(): void {
   let followed = false;
@@ -55,16 +66,17 @@ function startAnew(): void {
 
 function setConnected(is: boolean): void {
   useProject.setState({ connected: is });
+  tries = is ? 0 : tries + 1;
   if (is) useConnection.setState({ state: "open" });
   else void findReason().then((state) => !useProject.getState().connected && useConnection.setState({ state }));
 }
 
-async function findReason(): Promise<"lost" | "refused"> {
+async function findReason(): Promise<"lost" | "stopped" | "refused"> {
   try {
     await getJson("api/token"); // there is no such address, which only a page with the token of this server learns
     return "lost";
   } catch (error) {
-    return error instanceof ServerProblem && (error.status === 401 || error.status === 403) ? "refused" : "lost";
+    return error instanceof ServerProblem && (error.status === 401 || error.status === 403) ? "refused" : tries < TRIES ? "lost" : "stopped";
   }
 }
 

@@ -3,7 +3,7 @@ import { create } from "zustand";
 import type { CutHull } from "../wire";
 import { perform } from "./edits";
 import { type Scene, type SceneHull, useScenes } from "./scenes";
-import { dot, spanAlong, type Triple } from "./vectors";
+import { type Axis, axisShown, dot, spanAlong, type Triple } from "./vectors";
 import { setTool, useWorkspace } from "./workspace";
 
 export type CutAxis = "x" | "y" | "z" | "free";
@@ -44,7 +44,7 @@ export function hullToCut(scene: Scene | null, selection: ReadonlySet<string>): 
 
 /** The plane through a hull; null while a free one is not drawn. */
 export function planeOf(scene: Scene, hull: SceneHull, { axis, share, drawn }: CutState): CutPlane | null {
-  const across = axis === "free" ? drawn : axisInFile(scene.view.upright, axis);
+  const across = axis === "free" ? drawn : axisInFile(scene.view, axis);
   if (!across) return null;
   const [low, high] = spanAlong([hull.shape.positions], across);
   const middle = middleOf(hull.shape.positions);
@@ -59,11 +59,10 @@ export function shareAt(hull: SceneHull, across: Triple, point: Triple): number 
   return (dot(point, across) - low) / (high - low || 1);
 }
 
-/** A direction that is an axis as the asset is shown, in the frame of the file. */
-export function axisInFile(upright: readonly number[] | null, axis: "x" | "y" | "z"): Triple {
-  const k = "xyz".indexOf(axis);
-  if (!upright) return [k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0];
-  return [upright[4 * k] ?? 0, upright[4 * k + 1] ?? 0, upright[4 * k + 2] ?? 0];
+/** The direction of an axis as rules name it, in the frame of the file. */
+export function axisInFile({ upright, y_up }: Pick<Scene["view"], "upright" | "y_up">, axis: Axis): Triple {
+  const shown = axisShown(axis, y_up);
+  return upright ? ([0, 1, 2].map((c) => shown.reduce((sum, value, k) => sum + value * (upright[4 * k + c] ?? 0), 0)) as Triple) : shown;
 }
 
 /** Cuts the selected hull along the plane, and puts the tool down. */

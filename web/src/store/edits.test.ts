@@ -2,7 +2,7 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { api } from "../server/api";
 import { page, ServerProblem } from "../server/http";
-import { jumpTo, pendingEdits, perform, capitalize, undo } from "./edits";
+import { jumpTo, pendingEdits, perform, capitalize, undo, useUnsaved } from "./edits";
 import { emptyProject, receive, useProject } from "./project";
 import { useToasts } from "./toasts";
 
@@ -58,6 +58,25 @@ test("an edit waits for those before it, also where one is refused", async () =>
   expect(await Promise.all([perform(labels), perform(labels)])).toEqual([false, true]);
   expect(order).toEqual(["first", "second"]);
   expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
+});
+
+test.each([
+  ["before it was made: it is sent again", 0, 2],
+  ["after it was made: it is not made twice", 1, 1],
+])("an edit waits for a server that stops %s", async (_, undoable, sent) => {
+  useProject.setState({ ready: true, connected: true });
+  edit.mockRejectedValueOnce(new ServerProblem({ message: "gone", where: null, remedy: null, conflict: false }, 0));
+  edit.mockResolvedValue({ message: "done", nothing: true });
+  const done = perform(labels);
+  await vi.waitFor(() => expect(edit).toHaveBeenCalledOnce());
+  useProject.setState({ connected: false });
+  const other = perform(labels, { quiet: true });
+  expect(useUnsaved.getState().count).toBe(2);
+  useProject.setState({ connected: true, hellos: 1, history: { ...emptyProject.history, undoable, undo: "done" } });
+  expect(await Promise.all([done, other])).toEqual([true, true]);
+  expect(edit).toHaveBeenCalledTimes(sent + 1);
+  expect(toasts().map(({ text }) => text)).toEqual(["done"]);
+  expect(useUnsaved.getState().count).toBe(0);
 });
 
 test("an edit is over when the page knows what it changed, or is not connected any more", async () => {

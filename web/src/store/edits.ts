@@ -1,6 +1,7 @@
 // All that changes something goes to the server one after the other. An edit is on disk, and what it changed is on the
 // page, when its promise is fulfilled with true.
 import { api } from "../server/api";
+import { create } from "zustand";
 import { ServerProblem } from "../server/http";
 import type { AnyEdit, EditReceipt } from "../wire";
 import { type ProjectState, useProject } from "./project";
@@ -10,6 +11,10 @@ import { reportError, notify } from "./toasts";
 const PATIENCE = 3000;
 
 let queue: Promise<unknown> | null = null;
+
+/** How many edits are not saved yet. */
+export const useUnsaved = create<{ count: number }>()(() => ({ count: 0 }));
+const countUnsaved = (by: number) => useUnsaved.setState(({ count }) => ({ count: count + by }));
 
 /** Fulfilled when all edits that are on their way now are done; null where there is none. */
 export const pendingEdits = (): Promise<unknown> | null => queue;
@@ -46,6 +51,7 @@ let refused = 0;
 
 /** Does one request after those before; whether it was accepted. */
 function enqueue(request: () => Promise<void>): Promise<boolean> {
+  countUnsaved(1);
   const mine = (queue ?? Promise.resolve()).then(async () => {
     try {
       await request();
@@ -54,6 +60,7 @@ function enqueue(request: () => Promise<void>): Promise<boolean> {
       reportError(error);
       return false;
     } finally {
+      countUnsaved(-1);
       if (queue === mine) queue = null;
     }
   });
@@ -64,12 +71,42 @@ function enqueue(request: () => Promise<void>): Promise<boolean> {
 /** Changes the project; tell: what the toast says of what was done, null for no toast. */
 async function change(request: () => Promise<EditReceipt>, tell: ((said: string) => string) | null): Promise<void> {
   const before = useProject.getState();
-  const done = await request().catch((error: unknown) => {
+  const done = await send(request).catch((error: unknown) => {
     refused += 1;
     throw error;
   });
   if (!done.nothing) await whenShown(before);
   if (tell && done.message) notify(tell(done.message), tell === capitalize && !done.nothing);
+}
+
+const isLost = ({ ready, connected }: ProjectState): boolean => ready && !connected;
+
+/** Sends an edit; while there is no server it waits for one, so that nothing is lost. */
+async function send(request: () => Promise<EditReceipt>): Promise<EditReceipt> {
+  const { history, hellos, ready } = useProject.getState();
+  try {
+    if (!isLost(useProject.getState())) return await request();
+  } catch (error) {
+    if (!ready || !(error instanceof ServerProblem) || error.status !== 0) throw error;
+    await Promise.race([until(isLost), new Promise((pass) => setTimeout(pass, PATIENCE))]);
+    const now = useProject.getState();
+    if (now.connected && now.hellos === hellos) throw error;
+  }
+  await until((now) => now.hellos !== hellos);
+  // the server may have stopped after it had made the edit
+  const { undoable, undo } = useProject.getState().history;
+  return undoable === history.undoable ? request() : { message: undo ?? "", nothing: false };
+}
+
+function until(holds: (now: ProjectState) => boolean): Promise<void> {
+  if (holds(useProject.getState())) return Promise.resolve();
+  return new Promise((pass) => {
+    const stop = useProject.subscribe((now) => {
+      if (!holds(now)) return;
+      stop();
+      pass();
+    });
+  });
 }
 
 /** Waits until the page knows what its edit changed; before: the state when the edit was sent. */

@@ -45,6 +45,8 @@ export const emptyProject: ProjectState = {
     problem: null,
     lost: [],
     left_out: [],
+    up: "",
+    ask_up: null,
   },
   cards: {},
   order: [],

@@ -79,7 +79,7 @@ export function measureGap(scene: Scene, names: readonly [string, string], ends:
 function lineMeasure(scene: Scene, what: string, line: RulerLine): Omit<Measure, "id"> {
   const [a, b] = line.ends;
   const across = minus(b, a);
-  const along = AXES.map((axis) => Math.abs(dot(across, axisInFile(scene.view.upright, axis)))) as Triple;
+  const along = AXES.map((axis) => Math.abs(dot(across, axisInFile(scene.view, axis)))) as Triple;
   return { asset: scene.asset, what, lines: [line], length: Math.hypot(...across), along };
 }
 
@@ -88,7 +88,7 @@ export function measureExtents(scene: Scene, names: ReadonlySet<string>): Omit<M
   const hulls = scene.hulls.filter((hull) => names.has(hull.name));
   const [first] = hulls;
   if (!first) return null;
-  const axes = AXES.map((axis) => axisInFile(scene.view.upright, axis));
+  const axes = AXES.map((axis) => axisInFile(scene.view, axis));
   const spans = axes.map((axis) => spanAlong(hulls.map((hull) => hull.shape.positions), axis));
   const lows = spans.map(([low]) => low);
   const corner = [0, 1, 2].map((k) => axes.reduce((sum, axis, a) => sum + (lows[a] ?? 0) * (axis[k] ?? 0), 0)) as Triple;

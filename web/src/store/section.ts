@@ -1,9 +1,9 @@
 // The section plane: what lies before it is out of sight, so that one sees inside. It changes nothing of the asset; the
 // plane that cuts a hull in two is in `cut.ts`.
 import { create } from "zustand";
-import type { Triple } from "./vectors";
+import type { Axis, Triple } from "./vectors";
 
-export type SectionAxis = "x" | "y" | "z" | "view";
+export type SectionAxis = Axis | "view";
 
 interface SectionState {
   readonly on: boolean;
@@ -16,7 +16,7 @@ interface SectionState {
 }
 
 /** The side that is out of sight is the one that the usual view looks at: right, front, top. */
-const AXES: Readonly<Record<Exclude<SectionAxis, "view">, Triple>> = { x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1] };
+const AXES: Readonly<Record<Axis, Triple>> = { x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1] };
 
 export const initialSection: SectionState = { on: false, axis: "x", across: AXES.x, share: 0.5, flipped: false };
 export const useSection = create<SectionState>()(() => initialSection);
@@ -26,9 +26,11 @@ export function setSection(change: Partial<Pick<SectionState, "on" | "share" | "
   useSection.setState({ ...change, share: Math.min(1, Math.max(0, share)) });
 }
 
-/** Puts the plane across an axis, through the middle. */
-export function sectionAlong(axis: Exclude<SectionAxis, "view">): void {
-  useSection.setState({ on: true, axis, across: AXES[axis], share: 0.5, flipped: false });
+const Y_UP = { x: "x", y: "z", z: "y" } as const;
+
+/** Puts the plane across an axis, through the middle; yUp: whether Y is shown as up. */
+export function sectionAlong(axis: Axis, yUp = false): void {
+  useSection.setState({ on: true, axis, across: AXES[yUp ? Y_UP[axis] : axis], share: 0.5, flipped: false });
 }
 
 /** Puts the plane across the line of sight; eye: where one looks from, of length one. */

@@ -1,9 +1,9 @@
 // Messages at the foot of the window.
-import { beforeEach, expect, test } from "vitest";
-import { ServerProblem } from "../server/http";
+import { beforeEach, expect, test, vi } from "vitest";
+import { postJson, ServerProblem, setToken } from "../server/http";
 import { dismissToast, notify, reportError, reportProblem, useToasts } from "./toasts";
 
-beforeEach(() => useToasts.setState({ toasts: [] }));
+beforeEach(() => useToasts.setState({ toasts: [], problems: [] }));
 
 test("only the latest message offers undo, since undo takes back the latest edit", () => {
   notify("Labelled 3 hulls.", true);
@@ -53,4 +53,30 @@ test("each message has a number of its own, so that one is dismissed alone", () 
   const [first] = useToasts.getState().toasts;
   dismissToast(first?.id ?? -1);
   expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["one"]);
+});
+
+test("a problem goes when the same act succeeds, or the server is back, and is kept in the list", async () => {
+  setToken("t");
+  const answer = (status: number) => vi.stubGlobal("fetch", async () => new Response(status === 200 ? "{}" : JSON.stringify(problem(status)), { status }));
+  const problem = (status: number) => ({ message: `problem ${status}`, where: null, remedy: null, conflict: false });
+  const edit = (kind: string, asset: string) => postJson("api/edit", { kind, asset }).catch(reportError);
+  const texts = () => useToasts.getState().toasts.map(({ text }) => text);
+  answer(400);
+  await edit("cut", "a");
+  await edit("cut", "a");
+  expect(texts()).toEqual(["problem 400"]);
+  answer(200);
+  await edit("cut", "b");
+  await edit("steps", "a");
+  expect(texts()).toEqual(["problem 400"]);
+  await edit("cut", "a");
+  expect(texts()).toEqual([]);
+  vi.stubGlobal("fetch", () => Promise.reject(new TypeError("no network")));
+  await edit("cut", "a");
+  expect(texts()).toEqual(["The studio's server does not answer."]);
+  answer(200);
+  await edit("steps", "b");
+  expect(texts()).toEqual([]);
+  expect(useToasts.getState().problems.map(({ text }) => text)).toEqual(["The studio's server does not answer.", "problem 400", "problem 400"]);
+  vi.unstubAllGlobals();
 });

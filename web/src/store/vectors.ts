@@ -10,6 +10,15 @@ export const cross = (a: Triple, b: Triple): Triple => [
   a[0] * b[1] - a[1] * b[0],
 ];
 
+export type Axis = "x" | "y" | "z";
+
+/** An axis as rules name it, in the frame that is shown; yUp: whether its Y is shown as up, as `AssetView.y_up` says. */
+export function axisShown(axis: Axis, yUp: boolean): Triple {
+  if (axis === "x") return [1, 0, 0];
+  if (!yUp) return axis === "y" ? [0, 1, 0] : [0, 0, 1];
+  return axis === "y" ? [0, 0, 1] : [0, -1, 0];
+}
+
 /** From where to where points reach in a direction; all: x, y, z of each, array by array. */
 export function spanAlong(all: readonly Float32Array[], across: Triple): [low: number, high: number] {
   let [low, high] = [Infinity, -Infinity];

@@ -7,7 +7,6 @@ import webbrowser
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
-from secrets import token_urlsafe
 from threading import Thread
 from types import FrameType
 from typing import Any
@@ -21,16 +20,17 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
-from meshforge.common import MeshForgeError, UsageError, describe_error, describe_invalid_field
+from meshforge.common import MeshForgeError, describe_error, describe_invalid_field, explain_refusal
 from meshforge.store import ConflictError, NotHereError
 from meshforge.studio.api import connection, routes, start
+from meshforge.studio.api.address import ADDRESS, LastAddress
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
+from meshforge.studio.start.page import state_folder
 from meshforge.studio.transfers import TooLargeError
 from meshforge.studio.wire.events import Problem
 
-ADDRESS = "127.0.0.1"
 _LOG = logging.getLogger(__name__)
 
 _STATUSES = {ConflictError: 409, NotHereError: 404, TooLargeError: 413, MeshForgeError: 400}
@@ -41,22 +41,23 @@ def serve(
     options: StudioOptions,
     announce: Callable[[str], None],
     *,
-    port: int = 0,
+    port: int | None = None,
     browser: bool = True,
     page: Path = PAGE_FOLDER,
 ) -> None:
     """Serve a project, or the start page, until Ctrl-C or SIGTERM. announce: called with the address; port: 0 takes a
-    free one; page: the built page.
+    free one, None the last one if it is free; page: the built page.
 
     Raises MeshForgeError: no project, no page, the port is taken, or the studio is open on the project already.
     """
     open_page(page)
-    host, token = Host(options), token_urlsafe(24)
+    host = Host(options)
     with _stop_on_signal(), ExitStack() as stack:
         stack.callback(host.close)
         if options.folder is not None:
             host.open(options.folder)
-        listening = stack.enter_context(closing(_listen(port)))
+        listening, token = LastAddress(state_folder(), options.folder).listen(port)
+        stack.enter_context(closing(listening))
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
 
         def ready() -> None:
@@ -92,14 +93,6 @@ def _make_config(host: Host, token: str, page: Path) -> uvicorn.Config:
         timeout_graceful_shutdown=2,
         server_header=False,
     )
-
-
-def _listen(port: int) -> socket.socket:
-    try:
-        return socket.create_server((ADDRESS, port))
-    except OSError as error:
-        remedy = "Choose another: --port N; 0 takes a free one."
-        raise UsageError(f"port {port} cannot be taken: {error.strerror}", remedy=remedy) from None
 
 
 @contextmanager
@@ -169,6 +162,8 @@ def _status_of(error: Exception) -> int:
 
 def _problem_of(error: Exception) -> Problem:
     """An error in its parts; a fault of the studio in one sentence."""
+    if isinstance(error, OSError):
+        error = explain_refusal(error) or error
     if isinstance(error, MeshForgeError):
         return Problem(
             message=error.problem,

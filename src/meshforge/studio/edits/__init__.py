@@ -10,6 +10,7 @@ AnyEdit = Annotated[
     assets.LabelHulls
     | assets.SetVocabulary
     | assets.RenameLabel
+    | assets.SetUp
     | program.SetSteps
     | program.MoveRule
     | program.DeleteRule

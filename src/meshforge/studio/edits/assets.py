@@ -67,6 +67,18 @@ class RenameLabel(Edit):
         return list_renamed_files(project)
 
 
+class SetUp(Edit):
+    """Set the axis that points up in views and pictures of assets whose format does not say."""
+
+    kind: Literal["up"] = "up"
+    touches = (Layout.settings,)
+    title = "{up} points up"
+    up: Literal["Y", "Z"]
+
+    def apply(self, project: Project) -> None:
+        project.set_up(self.up)
+
+
 Vector = tuple[float, float, float]
 
 

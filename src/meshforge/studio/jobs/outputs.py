@@ -275,7 +275,7 @@ def _read_mark(folder: Path) -> dict[str, None]:
     """The files of earlier exports into a folder. Raises UsageError where it holds anything else only."""
     mark = folder / EXPORT_MARK
     if mark.is_file():
-        return dict.fromkeys(mark.read_text(encoding="utf-8").splitlines())
+        return dict.fromkeys(mark.read_text(encoding="utf-8", errors="replace").splitlines())
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         remedy = "Choose a new folder, or one of an earlier export."
         raise UsageError("this folder holds something else", where=str(folder), remedy=remedy)

@@ -2,13 +2,15 @@
 
 import json
 from collections.abc import Collection, Iterable
+from contextlib import suppress
+from itertools import islice
 
 import numpy as np
 
 from meshforge import rendering
 from meshforge.batch import software_version, text_digest
 from meshforge.common import MeshForgeError
-from meshforge.formats import VisualSurfaces
+from meshforge.formats import VisualSurfaces, format_named
 from meshforge.geometry import Floats, Pose
 from meshforge.language import Orient, Program, Replay, RuleTrace, orient_mesh
 from meshforge.project import Project
@@ -26,6 +28,9 @@ Z_FROM_Y = Pose(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), 
 THUMBNAIL_SIZE = (240, 180)
 
 RULE_PICTURE_SIZE = (720, 540)
+
+_LOOKED_AT = 3  # assets, to see what is up
+_LEVEL = 0.01  # how far the lowest point is off the ground, as a share of the height
 
 _DRAW_VERSION = "1"
 """To be raised when thumbnails are drawn in another way."""
@@ -51,6 +56,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
             NearMiss(a=seen.hulls[i].name, b=seen.hulls[j].name, gap=gap) for i, j, gap in seen.near_misses
         ),
         upright=to_numbers(pose),
+        y_up=is_y_up(mesh, None if unturned else project.orientation),
         unturned=unturned,
         steps=_step_views(project.steps(asset), replay.trace if replay else (), unturned or problem),
         version=steps_version(project, asset),
@@ -93,7 +99,7 @@ def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None 
     """Return shown_T_incoming of an asset of a project: turned by an orientation, by default that of the project, then
     so that Z points up; and why the orientation does not turn it, None where it does.
 
-    Z is up already where the orientation names it; otherwise the file says which axis is up.
+    Z is up already where the orientation names it; otherwise the file or the project says which axis is up.
     """
     orient = orient or project.orientation
     try:
@@ -104,8 +110,26 @@ def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None 
 
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
-    """Return whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
-    return not (orient and orient.names_z) and mesh.asset is not None and mesh.asset.up == "y"
+    """Return whether Y still points up after an orientation: the file or the project says so, and no landmark says what
+    +Z is."""
+    return not (orient and orient.names_z) and rendering.up_axis(mesh) == "Y"
+
+
+def find_unclear_up(project: Project, assets: Iterable[str]) -> str | None:
+    """Return the first asset of which neither its format nor the project says what points up; of some, as others of a
+    family lie alike. None where each stands on the plane z = 0, and not on y = 0."""
+    settings = project.settings
+    if settings.up or settings.orient:
+        return None
+    for asset in islice(assets, _LOOKED_AT):
+        with suppress(MeshForgeError):
+            mesh = project.mesh(asset)
+            known = format_named(mesh.asset.format) if mesh.asset else None
+            if known and known.up is None and mesh.aabb:
+                on_y, on_z = np.abs(mesh.aabb.min[1:]) < _LEVEL * mesh.aabb.size[1:]
+                if on_y or not on_z:
+                    return asset
+    return None
 
 
 def to_numbers(pose: Pose) -> tuple[float, ...] | None:
@@ -145,13 +169,13 @@ def draw_rule_picture(
     return frame_packet(header.encode(), _to_png(rendering.render_revealing(seen, show, pose, RULE_PICTURE_SIZE)))
 
 
-def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:
+def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str, up: str = "") -> str:
     """Return a digest of all that decides how an asset is drawn: its hulls, and labels that turn it.
 
-    geometry: the digest in AssetStatus; labels: of its hulls in order; orient: the orientation's text.
+    geometry: the digest in AssetStatus; labels: of its hulls in order; orient, up: those of the settings.
     """
     landmarks = [label.name if label and label.name in orient else "" for label in labels]
-    return text_digest("\n".join([_DRAW_VERSION, software_version(), geometry, orient, *landmarks]))
+    return text_digest("\n".join([_DRAW_VERSION, software_version(), geometry, orient, up.strip("Z"), *landmarks]))
 
 
 def output_picture_digest(picture: str, output: str) -> str:

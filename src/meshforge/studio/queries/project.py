@@ -74,8 +74,10 @@ def build_project_view(
     lost: tuple[str, ...],
     propagated: PropagationState | None = None,
     new: wire.NewAssetsView | None = None,
+    ask_up: str | None = None,
 ) -> wire.ProjectView:
-    """Return the project as the page shows it. problem, lost, propagated, new: see the fields of `ProjectView`."""
+    """Return the project as the page shows it. problem, lost, propagated, new, ask_up: see the fields of
+    `ProjectView`."""
     settings = project.settings
     return wire.ProjectView(
         name=settings.name,
@@ -94,6 +96,8 @@ def build_project_view(
         problem=problem,
         lost=lost,
         left_out=tuple(asset for asset in project.every.ids if asset not in project.found.ids),
+        up=settings.up,
+        ask_up=ask_up,
     )
 
 
@@ -164,13 +168,13 @@ def build_card(
     status: AssetStatus,
     vocabulary: Sequence[str],
     orient: str,
+    up: str = "",
     check: str | None = None,
     faults: tuple[Fault, ...] | None = None,
 ) -> wire.Card:
-    """Return the card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see
-    `Card`."""
+    """Return the card of an asset; orient, up: the settings that say how it is drawn; check, faults: see `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
-    picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
+    picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient, up)
     output = status.output_digest
     return wire.Card(
         asset=status.id,

@@ -86,16 +86,16 @@ class FileSync:
 
     def poll(self) -> None:
         """See whether others changed something. Never raises: an error is shown, and the next poll tries again."""
-        now = read_stamps(self.project)
-        changed = diff_stamps(self._stamps, now)
-        self._stamps = now
         try:
+            now = read_stamps(self.project)
+            changed = diff_stamps(self._stamps, now)
+            self._stamps = now
             if any((self.project.folder / name).is_dir() for name in changed):
                 self.reopen()
             if changed:
                 self.update(changed)
         except MeshForgeError as error:
-            self._pages.change_project(problem=error.message)
+            self._pages.show_problem(error.message)
         except Exception:  # the next poll may succeed; polling itself must go on
             _LOG.debug("looking at what others changed failed", exc_info=True)
 

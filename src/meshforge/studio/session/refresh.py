@@ -2,11 +2,13 @@
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import islice
 from threading import Condition, Thread
 from time import monotonic
+from typing import Any
 
 from meshforge.batch import read_stamp
 from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
@@ -16,6 +18,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
+from meshforge.studio.queries.assets import find_unclear_up
 from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.queries.project import add_session, build_card, build_project_view, vocabulary_view
 from meshforge.studio.wire.events import ProjectChanged
@@ -56,7 +59,7 @@ class Refresher:
 
     def portion_size(self) -> int:
         """Return how many assets are looked at together: few, so that their cards come soon."""
-        return max(_FEWEST, len(self._project().assets()) // _PORTIONS)
+        return max(_FEWEST, self._pages.count // _PORTIONS)
 
     def refresh(self, assets: tuple[str, ...]) -> None:
         """Look at some assets, and at the project when none are left. Never raises."""
@@ -72,20 +75,22 @@ class Refresher:
 
     def _show_problem(self, problem: str) -> None:
         """What the settings say is shown with it: a refresh that began before they changed may have shown the old."""
-        project = self._project()
-        settings = {"vocabulary": vocabulary_view(project.words), "goals": list_goal_views(project)}
-        self._pages.change_project(problem=problem, **settings)
+        settings: dict[str, Any] = {}
+        with suppress(MeshForgeError):  # it may be the settings that cannot be read
+            project = self._project()
+            settings = {"vocabulary": vocabulary_view(project.words), "goals": list_goal_views(project)}
+        self._pages.show_problem(problem, **settings)
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         project = self._project()
         status = project.status(
             assets, others=self._rows.values(), progress=self._count_read, stop=self.queue.is_closed
         )
-        words, orient = project.words, project.settings.orient
+        words, settings = project.words, project.settings
         self._rows |= {row.id: row for row in status.assets}
         keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
         self._pages.set_cards(
-            build_card(row, words, orient, key, self._checks.faults_of(key))
+            build_card(row, words, settings.orient, settings.up, key, self._checks.faults_of(key))
             for row, key in zip(status.assets, keys, strict=True)
         )
         self._report_progress()
@@ -106,7 +111,8 @@ class Refresher:
         said = bool(feedback.verdicts or feedback.answers or feedback.replied)
         family = add_session(family, *known, propagation, problem)
         step = choose_next_step(replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=said))
-        return build_project_view(project, step, problem, status.lost, propagation, new)
+        ask_up = find_unclear_up(project, self._pages.with_hulls)
+        return build_project_view(project, step, problem, status.lost, propagation, new, ask_up)
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""

@@ -125,7 +125,7 @@ class Session:
         if learned and learned.program and not accepted.by_hand:
             return Program.parse(learned.program)
         if accepted.error:
-            raise ProjectError(accepted.error, where=Layout.program.name)
+            raise ProjectError(accepted.error)
         return Program.parse(accepted.text) if accepted.text else None
 
     def describe_state(self) -> str | None:
@@ -143,7 +143,8 @@ class Session:
         """Raise NotHereError for an id that no asset has."""
         for asset in assets:
             if asset not in self.project.found.ids:
-                raise NotHereError(f"there is no asset {asset!r}", where=self.project.name)
+                remedy = "If its file was moved or removed, put it back."
+                raise NotHereError(f"there is no asset {asset!r}", where=self.project.name, remedy=remedy)
 
     # Changing
 

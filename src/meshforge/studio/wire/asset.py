@@ -79,7 +79,8 @@ class AssetView(Wire):
     """An asset as it is prepared, in the frame it comes in.
 
     upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
-    cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls.
+    cannot turn it; y_up: whether, after the orientation, it turns Y up; version: of the steps, to be sent back with an
+    edit of them; contacts: pairs of names of hulls.
     """
 
     asset: str
@@ -91,6 +92,7 @@ class AssetView(Wire):
     near_misses: tuple[NearMiss, ...] = ()
     upright: tuple[float, ...] | None = None
     unturned: str | None = None
+    y_up: bool = False
     steps: tuple[StepView, ...] = ()
     version: str = ""
     manual_edits: tuple[ManualEditView, ...] = ()

@@ -168,7 +168,8 @@ class ProjectView(Wire):
     rules: what is demonstrated, by rule; templates: hull templates that actions can name; propagation: the last one of
     labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
     cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
-    kept, but not as part of the family.
+    kept, but not as part of the family; up: as in the settings; ask_up: an asset on which to ask what is up, null where
+    that is known.
     """
 
     name: str
@@ -187,6 +188,8 @@ class ProjectView(Wire):
     problem: str | None = None
     lost: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
+    up: Literal["", "Y", "Z"] = ""
+    ask_up: str | None = None
 
 
 class ConfidenceView(Wire):

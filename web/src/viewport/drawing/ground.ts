@@ -1,5 +1,6 @@
 // The grid on the ground and the three axes, fitted to the size of the asset; they fade towards the rim.
 import { BufferAttribute, BufferGeometry, Color, Group, LineSegments, Scene, ShaderMaterial } from "three";
+import { axisShown } from "../../store/vectors";
 import type { ThemeColors } from "./themeColors";
 
 const AXES = [new Color("#d4503f"), new Color("#5a9e3a"), new Color("#3f7ad4")] as const;
@@ -37,8 +38,8 @@ export class Ground {
     this.scene.add(this.root);
   }
 
-  /** Lies below a box, given by its lowest and highest corner, in the canonical frame. */
-  fit(box: readonly number[], ink: ThemeColors): void {
+  /** Lies below a box, given by its lowest and highest corner, in the frame that is shown; yUp: whether Y is up there. */
+  fit(box: readonly number[], ink: ThemeColors, yUp = false): void {
     this.dispose();
     const [x0, y0, z0, x1, y1, z1] = box as [number, number, number, number, number, number];
     const size = Math.max(x1 - x0, y1 - y0, 0.5 * (z1 - z0), 1e-6);
@@ -47,7 +48,7 @@ export class Ground {
     const rim = Math.ceil((1.15 * size) / this.step) * this.step;
     const level = z0 - 0.0005 * size;
     this.root.add(lines(gridOf(middle, rim, this.step, level, ink), middle, rim));
-    this.root.add(lines(axesAt(level, 0.35 * size), middle, 4 * rim));
+    this.root.add(lines(axesAt(level, 0.35 * size, yUp), middle, 4 * rim));
   }
 
   dispose(): void {
@@ -76,10 +77,9 @@ function gridOf(middle: readonly [number, number], rim: number, step: number, z:
   return rows;
 }
 
-function axesAt(z: number, length: number): Rows {
-  return AXES.flatMap((color, axis) => {
-    const end = [0, 0, z];
-    end[axis] = (end[axis] ?? 0) + length;
+function axesAt(z: number, length: number, yUp: boolean): Rows {
+  return AXES.flatMap((color, k) => {
+    const end = axisShown((["x", "y", "z"] as const)[k] ?? "x", yUp).map((value, c) => length * value + (c === 2 ? z : 0));
     return [
       [0, 0, z, ...color.toArray(), 1],
       [...end, ...color.toArray(), 1],

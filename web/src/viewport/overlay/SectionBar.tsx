@@ -25,7 +25,7 @@ export function SectionBar() {
   const there = useScenes(({ scene }) => scene !== null);
   const stage = useStage();
   if (!on || !there) return null;
-  const put = (next: SectionAxis) => (next === "view" ? sectionFacing([...axesOf(stage.view.pose).eye]) : sectionAlong(next));
+  const put = (next: SectionAxis) => (next === "view" ? sectionFacing([...axesOf(stage.view.pose).eye]) : sectionAlong(next, useScenes.getState().scene?.view.y_up));
   return (
     <div className={css.bar} role="group" aria-label="Section plane" data-testid="section">
       <span>Section</span>

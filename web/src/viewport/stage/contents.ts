@@ -84,7 +84,7 @@ export class Contents {
     this.cut.setInk(ink);
     this.section.setInk(ink);
     this.ghost?.recolor(ink.text);
-    this.ground.fit(this.bounds, ink);
+    this.ground.fit(this.bounds, ink, this.shown?.scene.view.y_up);
   }
 
   dispose(): void {
@@ -102,6 +102,6 @@ export class Contents {
     const mid = (axis: number) => ((box[axis] ?? 0) + (box[axis + 3] ?? 0)) / 2;
     if (isOther) this.centre = [mid(0), mid(1), mid(2)];
     this.bounds = rotateBox(box, scene.view.upright);
-    this.ground.fit(this.bounds, this.ink);
+    this.ground.fit(this.bounds, this.ink, scene.view.y_up);
   }
 }

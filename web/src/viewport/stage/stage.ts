@@ -64,12 +64,14 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Shows a scene; another asset is framed, from the side that one looked from. */
+  /** Shows a scene; another asset, or another axis up, is framed, from the side that one looked from. */
   show(scene: Scene | null): void {
+    const yUp = this.shown?.scene.view.y_up;
     const isOther = this.contents.show(scene);
     this.view.bounds = this.contents.bounds;
     this.project();
     this.invalidate();
+    if (scene && scene.view.y_up !== yUp) this.wantsFit = true;
     if (!isOther || !scene) return;
     this.pace.restart();
     this.pace.settle(performance.now() / 1000);
