@@ -6,6 +6,7 @@ import json
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from meshforge.batch import IN_PROCESS
@@ -223,10 +224,11 @@ def test_what_names_do_not_say_is_labelled_by_likeness(named: Run) -> None:
 
 
 def test_files_beside_new_assets_come_before_names_and_likeness(named: Run) -> None:
-    Path("new/semantics.txt").write_text("base free seat\n")
-    assert "note: 4 labels from a file" in named(*WORDS).out
-    Path("new/semantics.txt").write_text("base free leg\n")
-    told = named(*WORDS)
+    points = np.concatenate([hull.vertices for hull in load("new/c.urdf").hulls])
+    for label in ("seat", "leg"):
+        np.savez("new/c.points.npz", points=points, labels=np.zeros(len(points), int), names=[label])
+        told = named(*WORDS)
+        assert "note: 4 labels from a file" in told.out
     assert "edited     c.urdf" in told.out, "another file, another label"
     Path("new/c.labels.json").write_text(json.dumps({"hulls": {"base/h1": "seat"}}))
     told = named(*WORDS)

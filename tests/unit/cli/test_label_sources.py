@@ -14,6 +14,14 @@ from tests.unit.cli.in_process import Run
 from tests.unit.labels.partnet import write_partnet
 
 VOCABULARY = ("drawer", "door", "handle", "frame")
+CLASSES = {
+    "link_0/geom0": "drawer",
+    "link_0/geom1": "handle-7",
+    "link_1/geom0": "rotation_door",
+    "link_1/geom1": "rotation_door",
+    "link_2/geom0": "frame_side-1",
+    "link_2/geom1": "furniture_body",
+}
 
 
 @pytest.fixture
@@ -21,7 +29,12 @@ def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of two cabinets as PartNet has them."""
     for name in ("7119", "7120"):
         write_partnet(tmp_path / "assets" / name)
-    Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=VOCABULARY)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=VOCABULARY)
+    for asset in project.assets():
+        hulls = project.mesh(asset).hulls
+        points, names = np.concatenate([hull.vertices for hull in hulls]), sorted({*CLASSES.values()})
+        kinds = np.repeat([names.index(CLASSES[hull.name]) for hull in hulls], [len(hull.vertices) for hull in hulls])
+        np.savez(project.path(asset).with_suffix(".points.npz"), points=points, labels=kinds, names=names)
     return run
 
 
@@ -50,11 +63,11 @@ frame    visual by pattern   bottom-2, frame_side-1       4        2   0.90
 10 labels would be taken; 2 hulls left without one. Nothing was written."""
 FILES = """\
 label    from           names           hulls   assets   confidence
-───────────────────────────────────────────────────────────────────
-drawer   semantics      drawer              2        2   1.00
-door     semantics      rotation_door       4        2   0.70
-handle   semantics      handle-7            2        2   0.70
-frame    semantics      frame_side-1        2        2   0.70
+─────────────────────────────────────────────────────────────────────
+drawer   points         drawer              2        2   0.57
+door     points         rotation_door       4        2   0.56
+handle   points         handle-7            2        2   0.56
+frame    points         frame_side-1        2        2   0.31, unsure
 (none)   nothing said   link_2/geom1        2        2
 10 labels would be taken; 2 hulls left without one. Nothing was written.
     left out: 7119/mobility.urdf: 1 hull left out: 'furniture_body' is not in the vocabulary, and no pattern says what it means
@@ -79,7 +92,7 @@ def test_files_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None
     assert told(run("label", "p", "--with", "file", "--dry-run").out) == FILES
     assert {name: data for name, data in tree(tmp_path / "p").items() if "survey" not in name} == before
     done = run("label", "p", "--pattern", "furniture_body=frame")
-    assert done.code == 0 and "7120/mobility.urdf: 6 labels taken\n" in done.out
+    assert done.code == 0 and "7120/mobility.urdf: 6 labels taken, 1 unsure\n" in done.out
     again = run("label", "p", "--pattern", "furniture_body=frame", "--dry-run")
     assert (
         again.out
@@ -103,7 +116,7 @@ def test_json_says_the_same(run: Run) -> None:
     assert [row["hulls"] for row in shown["leave"]] == [4]
     assert shown["keep"] == 0 and shown["problems"] == []
     files = json.loads(run("label", "p", "--with", "file", "--dry-run", "--json").out)
-    assert len(files["problems"]) == 2 and {row["kind"] for row in files["take"]} == {"semantics"}
+    assert len(files["problems"]) == 2 and {row["kind"] for row in files["take"]} == {"points"}
 
 
 def test_another_vocabulary_is_tried_without_being_set(run: Run, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Reading segmented points, and PartNet's semantics; each wrong input has one message."""
+"""Reading segmented points; each wrong input has one message."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import pytest
 from meshforge.common import AssetError
 from meshforge.formats import is_asset
 from meshforge.formats.segmentation import is_segmentation, points_beside, read_segmentation
-from meshforge.labels.from_files.links import read_semantics
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
 FACES = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]])
@@ -125,36 +124,6 @@ def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     for name in ("a.ply", "a.npz"):
         with pytest.raises(AssetError, match="cannot be read: No such file"):
             read_segmentation(tmp_path / name)
-
-
-# PartNet
-
-
-def test_semantics_tell_what_links_are(tmp_path: Path) -> None:
-    text = "link_0 hinge rotation_door\n\n  link_1   heavy furniture_body \n"
-    assert read_semantics(put(tmp_path, text, "semantics.txt")) == {
-        "link_0": "rotation_door",
-        "link_1": "furniture_body",
-    }
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("link_0 hinge\n", r"semantics.txt:1: this line has 2 words, not three: 'link_0 hinge'"),
-        ("a b c\na b d\n", r"semantics.txt:2: the link 'a' is listed twice"),
-        ("\n", r"semantics.txt: it lists no link"),
-    ],
-)
-def test_semantics_that_make_no_sense(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(AssetError, match=message):
-        read_semantics(put(tmp_path, text, "semantics.txt"))
-
-
-def test_semantics_in_another_encoding_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "semantics.txt").write_bytes(b"link_0 hinge t\xfcr\n")
-    with pytest.raises(AssetError, match=r"semantics\.txt: the semantics cannot be read \(not UTF-8 text\)"):
-        read_semantics(tmp_path / "semantics.txt")
 
 
 # Places

@@ -1,4 +1,4 @@
-"""A small asset as PartNet-Mobility has them: parts with meshes, named where they are shown, and what links are."""
+"""A small asset as PartNet-Mobility has them: parts with meshes, named where they are shown."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from pathlib import Path
 
 from tests.unit.batch.families import Corner, obj
 
-SEMANTICS = "link_0 slider drawer\nlink_1 hinge rotation_door\nlink_2 heavy furniture_body\n"
 PARTS: dict[str, tuple[tuple[str, Corner, Corner], ...]] = {
     "link_2": (
         ("frame_side-1", (-0.4, -0.3, 0.0), (-0.35, 0.3, 0.8)),
@@ -21,12 +20,10 @@ PARTS: dict[str, tuple[tuple[str, Corner, Corner], ...]] = {
         ("knob-3", (0.25, -0.36, 0.6), (0.3, -0.32, 0.65)),
     ),
 }
-HULLS = {f"{link}/geom{k}": part for link, parts in PARTS.items() for k, part in enumerate(parts)}
-"""The hulls by name: what they are called where they are shown, and their corners."""
 
 
-def write_partnet(folder: Path, semantics: str = SEMANTICS) -> Path:
-    """`mobility.urdf`, its meshes and `semantics.txt` in a folder."""
+def write_partnet(folder: Path) -> Path:
+    """`mobility.urdf` and its meshes in a folder."""
     links, joints = [], []
     for link, parts in PARTS.items():
         own = []
@@ -40,5 +37,4 @@ def write_partnet(folder: Path, semantics: str = SEMANTICS) -> Path:
         joints.append(f'<joint name="j{link[-1]}" type="fixed"><parent link="base"/><child link="{link}"/></joint>')
     urdf = folder / "mobility.urdf"
     urdf.write_text(f'<robot name="partnet"><link name="base"/>{"".join(links + joints)}</robot>')
-    (folder / "semantics.txt").write_text(semantics)
     return urdf

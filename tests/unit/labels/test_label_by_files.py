@@ -1,4 +1,4 @@
-"""Labels out of files of other tools: segmented points, and PartNet's semantics."""
+"""Labels out of files of other tools: segmented points."""
 
 from __future__ import annotations
 
@@ -11,90 +11,19 @@ import pytest
 from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
 from meshforge.formats import read
 from meshforge.geometry import Floats
-from meshforge.labels import FileLabeler, LabelFileOptions, LabelOutcome, OfferCache
+from meshforge.labels import FileLabeler, LabelFileOptions, OfferCache
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
-from tests.unit.labels.partnet import HULLS, write_partnet
+from tests.unit.labels.partnet import write_partnet
 from tests.unit.project.tables import FIRST, SECOND, fresh
 
 ASSET = "mobility.urdf"
-VOCABULARY = ("drawer", "door", "handle", "frame")
 NAMES = ("top", "leg", "misc")
-MEANINGS = (("furniture_body", "frame"), ("*knob*", "handle"))
-
-
-def partnet(folder: Path, *vocabulary: str, semantics: str | None = None) -> Project:
-    """A project of one asset, in a folder of its own."""
-    path = write_partnet(folder / "assets", *([semantics] if semantics is not None else []))
-    return Project.create(folder / "p", [path], vocabulary=vocabulary or VOCABULARY)
 
 
 def labels(project: Project, asset: str = ASSET) -> dict[str, tuple[str, float, str]]:
     return {name: (label.name, label.confidence, label.source) for name, label in project.labels(asset).labels.items()}
-
-
-# PartNet's semantics
-
-
-def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    (report,) = project.label(FileLabeler(options=LabelFileOptions(MEANINGS))).outcomes
-    assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
-    assert labels(project) == {
-        "link_2/geom0": ("frame", 1.0, "file"),
-        "link_2/geom1": ("frame", 1.0, "file"),
-        "link_0/geom0": ("drawer", 1.0, "file"),
-        "link_0/geom1": ("handle", 0.7, "file"),
-        "link_1/geom0": ("door", 0.7, "file"),
-        "link_1/geom1": ("handle", 1.0, "file"),
-    }
-
-
-def test_what_means_nothing_in_the_vocabulary_is_told_and_left_out(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    (report,) = project.label("file").outcomes
-    assert report == LabelOutcome(
-        ASSET,
-        taken=5,
-        unlabelled=1,
-        problems=("1 hull left out: 'furniture_body' is not in the vocabulary, and no pattern says what it means",),
-    )
-    assert "link_2/geom1" not in labels(project)
-
-
-def test_a_pattern_of_the_settings_says_what_a_semantic_means_or_that_it_means_nothing(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    settings = project.layout.settings
-    settings.write_text(f'{settings.read_text()}\n[names]\n"furniture_body" = "frame"\n"*door*" = ""\n')
-    (report,) = project.label("file").outcomes
-    assert (report.taken, report.unlabelled, report.problems) == (4, 2, ())
-    assert {name for name in HULLS if name not in labels(project)} == {"link_1/geom0", "link_1/geom1"}
-
-
-def test_links_that_are_not_there_are_told(tmp_path: Path) -> None:
-    project = partnet(tmp_path, semantics="link_0 slider drawer\nlink_9 hinge door\n")
-    (report,) = project.label("file").outcomes
-    assert report.taken == 2 and report.problems == ("there is no link 'link_9'",)
-
-
-def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path) -> None:
-    project = partnet(tmp_path, semantics="link_9 hinge door\n")
-    file = tmp_path / "assets/semantics.txt"
-    assert project.label("file").outcomes == (
-        LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),
-    )
-    file.write_text("link_0 slider\n")
-    (report,) = project.label("file").outcomes
-    assert "this line has 2 words, not three" in report.problems[0]
-    assert not project.layout.labels(ASSET).exists()
-
-
-def test_a_project_without_a_vocabulary_takes_what_links_are(tmp_path: Path) -> None:
-    project = Project.create(tmp_path / "p", [write_partnet(tmp_path / "assets")])
-    project.label("file")
-    assert project.vocabulary == ("drawer", "rotation_door", "furniture_body")
-    assert labels(project)["link_1/geom0"] == ("rotation_door", 1.0, "file")
 
 
 # Segmented points
@@ -190,7 +119,8 @@ def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path
 
 
 def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: Path) -> None:
-    project = partnet(tmp_path, "link_0", "link_1", "link_2")
+    links = ("link_0", "link_1", "link_2")
+    project = Project.create(tmp_path / "p", [write_partnet(tmp_path / "assets")], vocabulary=links)
     points, owner = surface_points(project, ASSET)
     turned = np.column_stack([points[:, 0], points[:, 2], -points[:, 1]]) / 7
     kinds = [int(name[5]) for name in owner]
@@ -242,15 +172,14 @@ def test_a_person_is_never_overwritten_and_a_machine_is(tmp_path: Path) -> None:
 # Which file
 
 
-def test_a_labels_file_goes_before_points_and_these_before_semantics(tmp_path: Path) -> None:
-    project = partnet(tmp_path, *VOCABULARY, "leg")
-    points, owner = surface_points(project, ASSET)
-    np.savez(tmp_path / "assets/mobility.points.npz", points=points, labels=np.zeros(len(owner), int), names=["leg"])
+def test_a_labels_file_goes_before_points(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
     project.label("file")
-    assert {label for label, _, _ in labels(project).values()} == {"leg"}
-    (tmp_path / "assets/mobility.labels.json").write_text(json.dumps({"hulls": {"link_0/geom1": "handle"}}))
+    assert right(project)
+    (tmp_path / "assets/t.labels.json").write_text(json.dumps({"hulls": {"crumb": "leg"}}))
     (report,) = project.label("file").outcomes
-    assert report.taken == 1 and labels(project)["link_0/geom1"] == ("handle", 1.0, "file")
+    assert report.taken == 1 and labels(project, "t.obj")["crumb"] == ("leg", 1.0, "file")
 
 
 def test_a_folder_mirrors_the_assets_with_files_of_every_kind(tmp_path: Path) -> None:
@@ -262,13 +191,6 @@ def test_a_folder_mirrors_the_assets_with_files_of_every_kind(tmp_path: Path) ->
     reports = project.label(FileLabeler(folder)).outcomes
     assert [(report.asset, report.taken) for report in reports] == [(FIRST, 6), (SECOND, 6)]
     assert right(project, FIRST) and right(project, SECOND)
-
-
-def test_a_folder_mirrors_semantics_too(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    (tmp_path / "out").mkdir()
-    (tmp_path / "assets/semantics.txt").rename(tmp_path / "out/semantics.txt")
-    assert project.label(FileLabeler(tmp_path / "out")).outcomes[0].taken == 5
 
 
 def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) -> None:
@@ -294,10 +216,11 @@ def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) ->
 
 
 @pytest.mark.slow
-def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Path) -> None:
-    project, offers = partnet(tmp_path), OfferCache()
-    assert offers.of(project).files == (ASSET,)
-    project.set_labels(ASSET, {"link_0/geom0": "drawer"}, source="propagated", confidence=0.6)
-    assert offers.of(project).files == (ASSET,)
+def test_points_are_offered_until_something_was_taken(tmp_path: Path) -> None:
+    project, offers = table(tmp_path, *NAMES), OfferCache()
+    segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
+    assert offers.of(project).files == ("t.obj",)
+    project.set_labels("t.obj", {"top": "top"}, source="propagated", confidence=0.6)
+    assert offers.of(project).files == ("t.obj",)
     project.label("file")
     assert offers.of(project).files == ()

@@ -1,5 +1,5 @@
 """Labels for the hulls of a project from files: which file says what the hulls of an asset are, and what it says; a
-labels file, segmented points, or PartNet's semantics of links."""
+labels file or segmented points."""
 
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
@@ -11,18 +11,17 @@ from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, execute, 
 from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
 from meshforge.formats import POINTS_SUFFIXES, AlignMode, labels_beside, points_beside
 from meshforge.labels.from_files.base import FileLabels
-from meshforge.labels.from_files.links import SEMANTICS_FILE, label_by_links, read_semantics, semantics_beside
 from meshforge.labels.from_files.points import label_by_points, read_class_names
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.names.label_by_names import NamePattern, PatternPairs, name_patterns
 from meshforge.store import AssetFacts, Store, hull_digests, iterate_asset_index
 from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
 
-LabelFileKind = Literal["labels file", "points", "semantics"]
+LabelFileKind = Literal["labels file", "points"]
 
 
 def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
-    """Return the file of each asset that has one; beside each asset: labels file, then points, then semantics.
+    """Return the file of each asset that has one; beside each asset: labels file, then points.
 
     source: a file for a single asset, or a folder that mirrors the assets; None for those beside them.
     Raises UsageError: nothing there, a kind of file that says no labels, or one file for several assets.
@@ -44,21 +43,17 @@ def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
 
 def kind_of(file: Path) -> LabelFileKind:
     """Return what a file is by its name. Raises UsageError for one that says no labels."""
-    match file.suffix.lower():
-        case ".json":
-            return "labels file"
-        case ".txt":
-            return "semantics"
-        case suffix if suffix in POINTS_SUFFIXES:
-            return "points"
-    remedy = f"Labels files are .json, segmented points .ply or .npz; PartNet's are {SEMANTICS_FILE}."
+    suffix = file.suffix.lower()
+    if suffix == ".json" or suffix in POINTS_SUFFIXES:
+        return "labels file" if suffix == ".json" else "points"
+    remedy = "Labels files are .json, segmented points .ply or .npz."
     raise UsageError("this is no kind of file that labels are read from", where=str(file), remedy=remedy)
 
 
 def label_file_beside(asset: Path) -> Path | None:
     """Return the file beside an asset, None where there is none."""
     labels = labels_beside(asset)
-    return labels if labels.is_file() else points_beside(labels) or semantics_beside(asset)
+    return labels if labels.is_file() else points_beside(labels)
 
 
 def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
@@ -70,7 +65,6 @@ def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
         next((path for path in plain if path.is_file()), None)
         or points_beside(labels)
         or next((path for path in others if path != asset and path.is_file()), None)
-        or semantics_beside(place)
     )
 
 
@@ -161,16 +155,13 @@ def read_label_file(
     mesh: SymbolicMesh, file: Path, how: LabelFileOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
 ) -> FileLabels:
     """Return what a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
-    match kind_of(file):
-        case "labels file":
-            return _take_labels_file(file, hull_digests(mesh))
-        case "points":
-            return label_by_points(mesh, file, how.classes, how.align, vocabulary, patterns)
-    return label_by_links(mesh, file, vocabulary, patterns)
+    if kind_of(file) == "labels file":
+        return _take_labels_file(file, hull_digests(mesh))
+    return label_by_points(mesh, file, how.classes, how.align, vocabulary, patterns)
 
 
 class FileLabeler(Labeler):
-    """Takes labels from files: labels files, segmented points, and PartNet's semantics of links.
+    """Takes labels from files: labels files and segmented points.
 
     source: a file for a single asset, a folder that mirrors the assets, or None for the files beside them. A project
     without a vocabulary takes that of the files.
@@ -201,10 +192,7 @@ class FileLabeler(Labeler):
 
 
 def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:
-    match kind_of(file):
-        case "labels file":
-            labels_file = read_labels(file)
-            return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))
-        case "points":
-            return read_class_names(file, options.classes)
-    return read_semantics(file).values()
+    if kind_of(file) == "points":
+        return read_class_names(file, options.classes)
+    labels_file = read_labels(file)
+    return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))

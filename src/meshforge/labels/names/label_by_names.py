@@ -70,15 +70,11 @@ class HullNames:
         """Its name without that of its body."""
         return self.hull.removeprefix(f"{self.body}/")
 
-    def own_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the kinds and the names that are its own, not its body's; what its file labels it is first."""
+    def all_names(self) -> Iterator[tuple[str, str]]:
+        """Yield the kinds and the names, what is most its own first; a body that has no real name is left out."""
         yield from ((kind, name) for kind, name in self.mentions if kind == _LABEL)
         yield _HULL, self.own
         yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
-
-    def all_names(self) -> Iterator[tuple[str, str]]:
-        """Yield the kinds and the names, what is most its own first; a body that has no real name is left out."""
-        yield from self.own_names()
         if self.body != NAMELESS:
             yield "body", self.body
         yield from ((kind, name) for kind, name in self.mentions if kind not in (*_OWN, _LABEL))
