@@ -39,7 +39,8 @@ class BodyOverlap:
     """Two bodies that reach into each other at rest pose; depth: at most [m]; joined: whether a joint holds them.
 
     excluded: whether the file lets these hulls pass through each other, so that it does no harm; share: of the smaller
-    body's volume, what is in the other one, where they are joined.
+    body's volume, what is in the other one, where they are joined; at_axis: whether they are so around the axis of a
+    hinge between them, or the centre of a ball, where they may be.
     """
 
     bodies: tuple[str, str]
@@ -48,18 +49,19 @@ class BodyOverlap:
     joined: bool
     excluded: bool = False
     share: float = 0.0
+    at_axis: bool = False
 
     def is_wrong(self, scale: float) -> bool:
         """Return whether it cannot be meant; scale: the diagonal [m]."""
         is_jammed = self.depth > JAMMED * scale or self.share > WITHIN
-        return self.depth > DEEP * scale and not self.excluded and (is_jammed or not self.joined)
+        return self.depth > DEEP * scale and not (self.excluded or self.at_axis) and (is_jammed or not self.joined)
 
 
-def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree, *, near_axes: bool = False) -> tuple[BodyOverlap, ...]:
+def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap, ...]:
     """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
 
-    Contacts that the file excludes count for themselves. Around the axis of a hinge, or the centre of a ball, those of
-    the two bodies that it joins count with `near_axes` only. Raises ValueError where MuJoCo refuses the model.
+    Contacts that the file excludes, and those at the axis of a joint between the two, count for themselves. Raises
+    ValueError where MuJoCo refuses the model.
     """
     import mujoco  # lazy: 0.3 s, only the physics checks need it
 
@@ -69,26 +71,26 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree, *, near_axes: bool =
     names = [model.geom(g).name for g in range(model.ngeom)]
     numbers = [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
     rigid, touching, back = tree.rigid_roots(), ContactRules(mesh), pose_on_floor(mesh).inverse()
-    found: dict[tuple[str, str, bool], BodyOverlap] = {}
+    found: dict[tuple[str, str, bool, bool], BodyOverlap] = {}
     between: dict[tuple[str, str], list[tuple[Joint, float]]] = {}
     for contact in data.contact[: data.ncon]:
         first, second = sorted(numbers[int(g)] for g in contact.geom)
         if first < 0 or contact.dist >= 0:
             continue
         a, b = mesh.hulls[first], mesh.hulls[second]
-        excluded = not touching.may_touch(first, second)
-        key = a.body, b.body, excluded
-        if rigid[a.body] == rigid[b.body] or (key in found and found[key].depth >= -contact.dist):
+        pair, depth = (rigid[a.body], rigid[b.body]), -float(contact.dist)
+        if pair[0] == pair[1]:
             continue
-        pair = rigid[a.body], rigid[b.body]
         if pair not in between:
             between[pair] = _find_joints_between(mesh, tree, rigid, *pair)
         joints, at = between[pair], back.apply(np.array(contact.pos)[None])
-        if near_axes or not any(joint.measure_distance(at) <= near for joint, near in joints):
-            found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), bool(joints), excluded)
+        at_axis = any(joint.measure_distance(at) <= near for joint, near in joints)
+        key = a.body, b.body, not touching.may_touch(first, second), at_axis
+        if key not in found or found[key].depth < depth:
+            found[key] = BodyOverlap(key[:2], (a.name, b.name), depth, bool(joints), key[2], at_axis=at_axis)
     least = DEEP * mesh.diagonal
     measured = (
-        replace(one, share=_measure_share(mesh, one)) if one.joined and one.depth > least else one
+        replace(one, share=_measure_share(mesh, one)) if one.joined and one.depth > least and not one.at_axis else one
         for one in found.values()
     )
     return tuple(sorted(measured, key=lambda overlap: (-overlap.depth, overlap.bodies)))

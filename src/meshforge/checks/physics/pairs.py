@@ -106,9 +106,9 @@ def propose_pairs(mesh: SymbolicMesh) -> tuple[PairProposal, ...]:
 
 
 def _find_pairs(mesh: SymbolicMesh, tree: JointTree, least: float) -> tuple[PairProposal, ...]:
-    wrong = {frozenset(one.bodies) for one in find_body_overlaps(mesh, tree) if one.is_wrong(mesh.diagonal)}
-    found: dict[frozenset[str], PairProposal] = {}
-    for overlap in find_body_overlaps(mesh, tree, near_axes=True):
+    overlaps, found = find_body_overlaps(mesh, tree), dict[frozenset[str], PairProposal]()
+    wrong = {frozenset(one.bodies) for one in overlaps if one.is_wrong(mesh.diagonal)}
+    for overlap in overlaps:
         if overlap.depth > least and not overlap.excluded:
             fault = "`--physics` finds an error in it" if frozenset(overlap.bodies) in wrong else ""
             pair = PairProposal(overlap.bodies, overlap.hulls, overlap.depth, "at rest", fault)

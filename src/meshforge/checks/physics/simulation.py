@@ -131,7 +131,7 @@ def simulate(mesh: SymbolicMesh) -> Physics:
     if len(tree.bodies) > BODIES:
         return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", mass_problems)
     try:
-        overlaps = find_body_overlaps(sound, tree)
+        overlaps = tuple(one for one in find_body_overlaps(sound, tree) if not one.at_axis)
         rest = _simulate_rest(sound, tree)
         problems = (*check_joints(sound, tree, DEEP * sound.diagonal), *check_loose_pieces(sound, tree))
     except ValueError as error:  # MuJoCo's compiler
