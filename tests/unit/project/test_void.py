@@ -98,18 +98,6 @@ def change_asset(project: Project) -> None:
     change_text(project.path(THIRD), "1.6", "1.7")
 
 
-def change_referenced_mesh(project: Project) -> None:
-    change_text(project.path(ACCEPTED).with_name("meshes") / "crumb.obj", "0.1", "0.2")
-
-
-def change_label(project: Project) -> None:
-    project.set_labels(THIRD, {"left_low": "misc"})
-
-
-def rename_label(project: Project) -> None:
-    project.rename_label("leg", "foot")
-
-
 def lay_out_anew(path: Path) -> None:
     """Write a JSON file in another order of its keys, with other white space and line ends, behind a BOM."""
     turned = json.loads(path.read_text(), object_pairs_hook=lambda pairs: dict(reversed(pairs)))
@@ -129,22 +117,6 @@ def lay_all_out_anew(project: Project) -> None:
     project.layout.settings.write_text(f"# mine\n{project.layout.settings.read_text()}")
 
 
-def change_preparation(project: Project) -> None:
-    project.cut(THIRD, "crumb#0", (5.025, 5.05, 5.05), (1, 0, 0))
-
-
-def change_program(project: Project) -> None:
-    project.accept(Program.parse("labels misc\nIs(misc) => Delete\n"))
-
-
-def change_template(project: Project) -> None:
-    write_atomically(project.layout.own_templates / "knob.obj", knob(0.02))
-
-
-def change_edits_by_hand(project: Project) -> None:
-    project.write_manual_edits(THIRD, ())
-
-
 def set_in_settings(old: str, new: str) -> Callable[[Project], None]:
     def change(project: Project) -> None:
         path = project.layout.settings
@@ -155,36 +127,12 @@ def set_in_settings(old: str, new: str) -> Callable[[Project], None]:
     return change
 
 
-def change_demonstration(project: Project) -> None:
-    project.demonstrate(SECOND, [*STEPS[:1], Step(2, {"left_low", "left_high"}, STEPS[1].action)])
-
-
-def contradict_demonstration(project: Project) -> None:
-    project.demonstrate(ACCEPTED, [Step(1, {"body/top"}, Delete())])
-
-
-def delete_demonstration(project: Project) -> None:
-    project.layout.demonstration(SECOND).unlink()
-
-
-def delete_verdict(project: Project) -> None:
-    project.set_verdict(ACCEPTED, None)
-
-
-def add_answer(project: Project) -> None:
-    project.add_answer(Answer(1, THIRD, ["crumb#0", "crumb#1"]))
-
-
 def edit_output(project: Project) -> None:
     change_text(output(project, THIRD), "1.5", "1.6")
 
 
 def edit_accepted_output(project: Project) -> None:
     change_text(output(project, ACCEPTED), "1.05", "1.06")
-
-
-def edit_output_labels(project: Project) -> None:
-    change_text(output(project, THIRD).with_suffix(".labels.json"), '"leg"', '"top"')
 
 
 def cut_outputs_to_nothing(project: Project) -> None:
@@ -197,10 +145,6 @@ def exchange_outputs(project: Project) -> None:
     one.rename(one.with_name("aside"))
     other.rename(one)
     one.with_name("aside").rename(other)
-
-
-def remove_output(project: Project) -> None:
-    output(project, THIRD).unlink()
 
 
 def change_texture(project: Project) -> None:
@@ -222,30 +166,50 @@ def touch_all(project: Project) -> None:
     ("change", "voids"),
     [
         (change_asset, {THIRD: ("asset",)}),
-        (change_referenced_mesh, {ACCEPTED: ("asset",)}),
-        (change_label, {THIRD: ("labels",)}),
-        (rename_label, NONE),
+        (
+            lambda project: change_text(project.path(ACCEPTED).with_name("meshes") / "crumb.obj", "0.1", "0.2"),
+            {ACCEPTED: ("asset",)},
+        ),
+        (lambda project: project.set_labels(THIRD, {"left_low": "misc"}), {THIRD: ("labels",)}),
+        (lambda project: project.rename_label("leg", "foot"), NONE),
         (lay_all_out_anew, NONE),
-        (change_preparation, {THIRD: ("preparation", "labels")}),
-        (change_program, dict.fromkeys(FAMILY, ("program",))),
-        (change_template, {THIRD: ("templates",)}),
-        (change_edits_by_hand, {THIRD: ("templates", "manual edits")}),
+        (
+            lambda project: project.cut(THIRD, "crumb#0", (5.025, 5.05, 5.05), (1, 0, 0)),
+            {THIRD: ("preparation", "labels")},
+        ),
+        (
+            lambda project: project.accept(Program.parse("labels misc\nIs(misc) => Delete\n")),
+            dict.fromkeys(FAMILY, ("program",)),
+        ),
+        (
+            lambda project: write_atomically(project.layout.own_templates / "knob.obj", knob(0.02)),
+            {THIRD: ("templates",)},
+        ),
+        (lambda project: project.write_manual_edits(THIRD, ()), {THIRD: ("templates", "manual edits")}),
         (set_in_settings('orient = ""', 'orient = "+Z: Is(leg) -> Is(top)"'), SETTINGS),
         (set_in_settings('"leg"', '"leg", "rail"'), SETTINGS),
         (set_in_settings("# What hulls", "[thresholds]\ncontact = 0.1\n# "), SETTINGS),
         (set_in_settings("# What hulls", "[thresholds]\nextremity = 0.1\n# "), SETTINGS),
         (set_in_settings('name = "tables"', 'name = "desks"'), NONE),
-        (change_demonstration, SHOWN),
-        (contradict_demonstration, SHOWN),
-        (delete_demonstration, SHOWN),
-        (delete_verdict, EVERY),
-        (add_answer, SHOWN),
+        (
+            lambda project: project.demonstrate(
+                SECOND, [*STEPS[:1], Step(2, {"left_low", "left_high"}, STEPS[1].action)]
+            ),
+            SHOWN,
+        ),
+        (lambda project: project.demonstrate(ACCEPTED, [Step(1, {"body/top"}, Delete())]), SHOWN),
+        (lambda project: project.layout.demonstration(SECOND).unlink(), SHOWN),
+        (lambda project: project.set_verdict(ACCEPTED, None), EVERY),
+        (lambda project: project.add_answer(Answer(1, THIRD, ["crumb#0", "crumb#1"])), SHOWN),
         (edit_output, {THIRD: ("output",)}),
         (edit_accepted_output, {ACCEPTED: ("output",)}),
-        (edit_output_labels, {THIRD: ("output",)}),
+        (
+            lambda project: change_text(output(project, THIRD).with_suffix(".labels.json"), '"leg"', '"top"'),
+            {THIRD: ("output",)},
+        ),
         (cut_outputs_to_nothing, dict.fromkeys(FAMILY, ("output",))),
         (exchange_outputs, dict.fromkeys((FIRST, SECOND), ("output",))),
-        (remove_output, {THIRD: ("output",)}),
+        (lambda project: output(project, THIRD).unlink(), {THIRD: ("output",)}),
         (change_texture, NONE),
         (write_outputs_again, NONE),
         (touch_all, NONE),
