@@ -61,16 +61,12 @@ def test_a_native_primitive_is_within_the_limits_however_it_is_tessellated(engin
         ("bullet", ball(101), [("bullet-vertices", "warning")]),
         ("godot", ball(256), []),
         ("godot", ball(257), [("godot-vertices", "error")]),
+        ("physx-gpu", Box.of_bounds(Aabb([0, 0, 0], [99, 1, 1])).tessellate(), []),
+        ("physx-gpu", Box.of_bounds(Aabb([0, 0, 0], [101, 1, 1])).tessellate(), [("physx-gpu-oblong", "warning")]),
     ],
 )
 def test_limits_hold_to_the_last_vertex(engine: str, shape: Shape, expected: list[tuple[str, str]]) -> None:
     assert rules(engine, shape) == expected
-
-
-def test_a_needle_is_oblong_for_physx_on_the_gpu() -> None:
-    needle = Box.of_bounds(Aabb([0, 0, 0], [101, 1, 1])).tessellate()
-    assert rules("physx-gpu", needle) == [("physx-gpu-oblong", "warning")]
-    assert rules("physx-gpu", Box.of_bounds(Aabb([0, 0, 0], [99, 1, 1])).tessellate()) == []
 
 
 def test_the_message_says_how_many_and_how_many_are_allowed() -> None:
