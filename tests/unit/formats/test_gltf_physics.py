@@ -25,8 +25,12 @@ def omi(scene: SceneFile, name: str, shape: Tree, **rest: object) -> int:
     return scene.node(name, None, extensions={"OMI_physics_body": collider}, **rest)
 
 
-def test_implicit_shapes_are_native_ones_about_y(tmp_path: Path) -> None:
-    scene = SceneFile()
+@pytest.fixture
+def scene() -> SceneFile:
+    return SceneFile()
+
+
+def test_implicit_shapes_are_native_ones_about_y(scene: SceneFile, tmp_path: Path) -> None:
     scene.collider("box", {"type": "box", "box": {"size": [2, 4, 6]}}, translation=[1, 0, 0])
     scene.collider("ball", {"type": "sphere", "sphere": {"radius": 3}})
     scene.collider("can", {"type": "cylinder", "cylinder": {"radiusTop": 1, "radiusBottom": 1, "height": 4}})
@@ -41,16 +45,14 @@ def test_implicit_shapes_are_native_ones_about_y(tmp_path: Path) -> None:
     assert "KHR_physics_rigid_bodies" in asset.notes[0]
 
 
-def test_sizes_that_are_left_out_are_those_of_the_specification(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_sizes_that_are_left_out_are_those_of_the_specification(scene: SceneFile, tmp_path: Path) -> None:
     for kind in ("box", "sphere", "cylinder", "capsule"):
         scene.collider(kind, {"type": kind})
     sizes = [geom.shape.aabb.size.tolist() for geom in asset_of(scene, tmp_path).geoms]
     assert sizes == [[1, 1, 1], [1, 1, 1], [0.5, 0.5, 0.5], [0.5, 1, 0.5]]
 
 
-def test_the_scale_of_a_node_applies_to_its_shape(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_the_scale_of_a_node_applies_to_its_shape(scene: SceneFile, tmp_path: Path) -> None:
     scene.collider("egg", {"type": "sphere", "sphere": {"radius": 1}}, scale=[1, 2, 1])
     scene.collider("big", {"type": "sphere", "sphere": {"radius": 1}}, scale=[3, 3, 3])
     egg, big = (geom.shape for geom in asset_of(scene, tmp_path).geoms)
@@ -73,8 +75,7 @@ def test_tapered_shapes_are_hulls_and_told(tmp_path: Path, kind: str, top: float
     assert any("'cone' is tapered" in note for note in asset.notes)
 
 
-def test_planes_and_shapes_without_volume_are_opaque(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_planes_and_shapes_without_volume_are_opaque(scene: SceneFile, tmp_path: Path) -> None:
     scene.collider("floor", {"type": "plane"}, translation=[0, 1, 0])
     scene.collider("thin", {"type": "box", "box": {"size": [1, 0, 1]}})
     scene.collider("odd", {"type": "torus"})
@@ -88,8 +89,7 @@ def test_planes_and_shapes_without_volume_are_opaque(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", ["node", "mesh"])
-def test_meshes_collide_as_their_hull_or_as_they_are(tmp_path: Path, form: str) -> None:
-    scene = SceneFile()
+def test_meshes_collide_as_their_hull_or_as_they_are(scene: SceneFile, tmp_path: Path, form: str) -> None:
     hull, pieces, corner = scene.mesh(angle()), scene.mesh(together(box(), box((2, 0, 0)))), scene.mesh(angle())
     scene.uses(KHR)
     for name, mesh, convex in (("hull", hull, True), ("pieces", pieces, False), ("corner", corner, False)):
@@ -103,8 +103,7 @@ def test_meshes_collide_as_their_hull_or_as_they_are(tmp_path: Path, form: str) 
     assert [piece.name for piece in asset.non_convex] == ["corner"]
 
 
-def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(scene: SceneFile, tmp_path: Path) -> None:
     brick = {"type": "box"}
     lid = scene.collider("lid", brick, translation=[0, 1, 0])
     scene.tree["nodes"][lid]["extensions"][KHR]["motion"] = {}
@@ -122,8 +121,7 @@ def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp
     assert poses["lid"].translation.tolist() == [5, 2, 0]
 
 
-def test_masses_are_not_read_and_that_is_said(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_masses_are_not_read_and_that_is_said(scene: SceneFile, tmp_path: Path) -> None:
     for name, motion in {"khr": {"mass": 1}, "free": {}}.items():
         child = scene.collider(f"{name} box", {"type": "box"})
         scene.node(name, children=[child], extensions={KHR: {"motion": motion}})
@@ -138,8 +136,7 @@ def test_masses_are_not_read_and_that_is_said(tmp_path: Path) -> None:
     ]
 
 
-def test_triggers_are_told_and_not_read(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_triggers_are_told_and_not_read(scene: SceneFile, tmp_path: Path) -> None:
     scene.collider("box", {"type": "box"})
     scene.node("door", extensions={KHR: {"trigger": {"geometry": {"shape": 0}}}})
     asset = asset_of(scene, tmp_path)
@@ -147,8 +144,7 @@ def test_triggers_are_told_and_not_read(tmp_path: Path) -> None:
     assert any(note.startswith("1 trigger detect") for note in asset.notes)
 
 
-def test_meshes_of_a_file_with_colliders_are_what_is_seen(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_meshes_of_a_file_with_colliders_are_what_is_seen(scene: SceneFile, tmp_path: Path) -> None:
     body = scene.collider("box", {"type": "box"}, mesh=scene.mesh(angle()))
     scene.tree["nodes"][body]["extensions"][KHR]["motion"] = {}
     scene.node("UCX_seen_all_the_same", box())
@@ -156,8 +152,7 @@ def test_meshes_of_a_file_with_colliders_are_what_is_seen(tmp_path: Path) -> Non
     assert [(len(surface.faces), surface.body) for surface in asset.visuals] == [(20, "box"), (12, None)]
 
 
-def test_shapes_of_omi_have_other_sizes_where_these_are_left_out(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_shapes_of_omi_have_other_sizes_where_these_are_left_out(scene: SceneFile, tmp_path: Path) -> None:
     for kind in ("box", "sphere", "cylinder", "capsule"):
         omi(scene, kind, {"type": kind})
     omi(scene, "hull", {"type": "convex", "convex": {"mesh": scene.mesh(angle())}})
@@ -183,8 +178,7 @@ def test_a_capsule_of_one_radius_tells_its_whole_height_one_of_two_that_of_its_s
     assert [shape.kind for shape in shapes] == ["capsule", "capsule", "sphere"]
 
 
-def test_bodies_of_omi_are_told_by_motion_or_by_type(tmp_path: Path) -> None:
-    scene = SceneFile()
+def test_bodies_of_omi_are_told_by_motion_or_by_type(scene: SceneFile, tmp_path: Path) -> None:
     inside = [omi(scene, name, {"type": "box"}) for name in ("a", "b")]
     scene.node("new", extensions={"OMI_physics_body": {"motion": {"type": "dynamic"}}}, children=inside[:1])
     scene.node("old", extensions={"OMI_physics_body": {"type": "rigid"}}, children=inside[1:])

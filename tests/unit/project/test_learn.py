@@ -19,8 +19,7 @@ from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabe
 ALL = "labels board, leg, knob\n\nIs(board) => Delete\n"
 
 
-def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_answers_about_what_is_gone_are_reported_not_refused(project: Project, tmp_path: Path) -> None:
     project.add_answer(Answer(1, "rack6.obj", ["top"]))
     project.add_answer(Answer(1, "rack5.obj", ["board"]))
     (tmp_path / "assets" / "rack6.obj").unlink()
@@ -30,8 +29,7 @@ def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> 
     assert {answer.asset for answer in outcome.stale} == {"rack6.obj", "rack5.obj"}
 
 
-def test_an_answer_is_not_taken_for_one_to_another_rule(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_an_answer_is_not_taken_for_one_to_another_rule(project: Project) -> None:
     answer = Answer(1, SHELVED, ["top"])
     project.add_answer(answer)
     for asset in (PLAIN, OTHER):
@@ -67,8 +65,7 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
     assert project.synthesize().repairs == outcome.repairs
 
 
-def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(project: Project) -> None:
     project.synthesize()
     project.add_answer(Answer(1, SHELVED, ["left"]))
     project.add_answer(Answer(1, "rack3.obj", ["right", "knob"]))
@@ -77,8 +74,7 @@ def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path
     assert str(project.program()) == ALL
 
 
-def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_a_family_reads_assets_once_and_labels_anew(project: Project) -> None:
     family = project.with_cache()
     before = dict(family.meshes_by_id())
     project.set_labels(SHELVED, {"shelf": None, "knob": "leg"})
@@ -93,12 +89,16 @@ OPEN = OpenRule(1, SHELVED, (frozenset({"top", "shelf"}), frozenset({"top"})))
 MACHINE = Label("leg", 0.75, "vlm")
 
 
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return ambiguous(tmp_path)
+
+
 def knob(project: Project) -> Label | None:
     return project.mesh(PLAIN).hull_of("knob").annotation
 
 
-def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_an_answer_is_kept_as_one_can_read_it(project: Project) -> None:
     assert project.add_answer(choose(OPEN, 1)) == "1:rack2.obj"
     assert project.layout.events.read_text() == (
         '{"event":"answer","rule":1,"asset":"rack2.obj","select":["top"],"action":"Delete"}\n'
@@ -119,8 +119,7 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
     assert list(some) == [asset for asset in project.assets() if asset in some]
 
 
-def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(project: Project) -> None:
     project.add_answer(Answer(1, "rack4.obj", ()))
     project.add_answer(choose(OPEN, 0))
     project.add_answer(choose(OPEN, None))
@@ -128,8 +127,7 @@ def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: 
     assert said == [(SHELVED, None), ("rack4.obj", ())]
 
 
-def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_fields_that_this_version_does_not_know_are_kept(project: Project) -> None:
     project.add_answer(choose(OPEN, 0))
     path = project.layout.events
     path.write_text(json.dumps(json.loads(path.read_text()) | {"when": "today"}) + "\n")
@@ -140,8 +138,7 @@ def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None
     assert [one["event"] for one in others] == ["answer", "withdrawal", "withdrawal"]
 
 
-def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_answers_that_cannot_be_are_refused(project: Project) -> None:
     with pytest.raises(ProjectError, match=r"no asset 'rack\.obj'"):
         project.add_answer(Answer(1, "rack.obj", None))
     with pytest.raises(ProjectError, match="no rule 2 to answer for: only rules 1 to 1 are demonstrated"):
@@ -192,8 +189,7 @@ def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     assert not project.feedback().answers_and_fixes
 
 
-def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
+def test_an_unknown_id_names_the_nearest(project: Project) -> None:
     with pytest.raises(ProjectError, match="--list-answers"):
         project.take_back("1:rack2.obj")
     project.add_answer(choose(OPEN, 0))

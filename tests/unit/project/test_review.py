@@ -37,8 +37,12 @@ def result_of(asset: str) -> ReviewQuestion:
     return ReviewQuestion("result", "?", 2.65, 0.5, asset, choices=choices, id="r")
 
 
-def test_a_demonstrated_asset_is_signed_off_by_a_person_and_a_sure_one_by_the_tool(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return applied(tmp_path)
+
+
+def test_a_demonstrated_asset_is_signed_off_by_a_person_and_a_sure_one_by_the_tool(project: Project) -> None:
     found = review(project)
     assert set(found.assessment.signed_off) == {FIRST, SECOND, THIRD}
     signed = project.sign_offs()
@@ -83,8 +87,7 @@ def test_a_review_calls_functions_of_at_most_ten_modules_and_none_calls_back_one
 
 
 @pytest.mark.parametrize("choice", EXCLUDE)
-def test_an_asset_that_is_given_up_is_excluded_with_the_reason(tmp_path: Path, choice: str) -> None:
-    project = applied(tmp_path)
+def test_an_asset_that_is_given_up_is_excluded_with_the_reason(project: Project, choice: str) -> None:
     review(project)
     project.reply(result_of(THIRD), ReviewReply("r", choice))
     after = review(project).assessment
@@ -130,8 +133,7 @@ def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
     assert None not in {one.result_status.probability for one in project.status().assets}
 
 
-def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_the_same_review_writes_the_same_files(project: Project) -> None:
     review(project)
     before = {name: (project.folder / name).read_bytes() for name in ("signoffs.jsonl", ".meshforge/assessment.json")}
     review(project)
@@ -139,8 +141,7 @@ def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
     assert [json.loads(line)["asset"] for line in before["signoffs.jsonl"].splitlines()] == [FIRST, SECOND, THIRD]
 
 
-def test_a_result_that_was_accepted_counts_only_while_the_program_does_the_same_there(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_a_result_that_was_accepted_counts_only_while_the_program_does_the_same_there(project: Project) -> None:
     project.set_verdict(THIRD, "accepted")
     assert THIRD in review(project).assessment.looked_at
     (project.folder / "program.mf").write_text("labels top, leg, misc\n\nIs(misc) => Delete\n")
@@ -205,8 +206,7 @@ def test_a_repair_that_a_person_did_not_want_is_not_proposed_again(tmp_path: Pat
     assert project.mesh(FIRST).hull_of("crumb").annotation == Label(was, 1.0, "user")
 
 
-def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_back(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_back(project: Project) -> None:
     project.add_answer(Answer(1, SECOND, ["crumb"]))
     project.demonstrate(SECOND, ())
     project.set_verdict(THIRD, "accepted")
@@ -232,16 +232,14 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     assert sign_off_of(project, THIRD) == "signed off"
 
 
-def test_an_output_that_is_found_to_stand_out_stays_signed_off_and_that_is_said(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_an_output_that_is_found_to_stand_out_stays_signed_off_and_that_is_said(project: Project) -> None:
     review(project)
     assert project.renew_sign_offs({THIRD: ("volume +300%, the family +0%",)}, clock=lambda: NOON) == {}
     status = next(one.result_status for one in project.status().assets if one.id == THIRD)
     assert (status.state, status.found_since) == ("signed off", ("volume +300%, the family +0%",))
 
 
-def test_a_sign_off_stays_at_a_lower_bar_and_is_taken_back_where_more_is_asked_for(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_a_sign_off_stays_at_a_lower_bar_and_is_taken_back_where_more_is_asked_for(project: Project) -> None:
     review(project)
     assert review(project, 0.4).taken_back == {}
     (why,) = review(project, 0.9999).taken_back.values()
@@ -249,8 +247,7 @@ def test_a_sign_off_stays_at_a_lower_bar_and_is_taken_back_where_more_is_asked_f
     assert project.sign_offs().keys() == {FIRST, SECOND}
 
 
-def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_accepted_is(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_accepted_is(project: Project) -> None:
     project.set_verdict(THIRD, "accepted")
     assert review(project).assessment.looked_at == {FIRST, SECOND, THIRD}
     for asset, hull in ((FIRST, "top"), (SECOND, "crumb")):

@@ -44,8 +44,12 @@ def said(folder: Path) -> Project:
     return project
 
 
-def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(tmp_path: Path) -> None:
-    project = said(tmp_path)
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return said(tmp_path)
+
+
+def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(project: Project) -> None:
     before = kept(project)
     project.cut(FIRST, "crumb", *PLANE)
     assert project.steps(FIRST)[0].select == frozenset(PARTS)
@@ -56,8 +60,7 @@ def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(tmp
     assert kept(project) == before
 
 
-def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(project: Project) -> None:
     before = kept(project)
     project.cut(FIRST, "crumb", *PLANE)
     after, history = kept(project), History.open(project.folder)
@@ -70,8 +73,7 @@ def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(tmp_path: Path
     assert (kept(project), History.open(project.folder).state.undoable) == (before, 2)
 
 
-def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(project: Project) -> None:
     project.cut(FIRST, "crumb", *PLANE)
     demonstrations.correct_selection(project, FIRST, 1, ["crumb#0", "crumb#1", "top"])
     assert not any("demonstrated" in flag for flag in project.status(workers=0).assets[0].flags)
@@ -88,8 +90,7 @@ def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(tmp
     assert not project.preparation(FIRST).steps
 
 
-def test_an_undo_names_the_edit_that_changed_something_since(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_an_undo_names_the_edit_that_changed_something_since(project: Project) -> None:
     project.cut(FIRST, "crumb", *PLANE)
     steps = [StepEdit(select=("top",), action=ActionCall(name="Delete"))]
     version = steps_version(project, FIRST)
@@ -98,8 +99,7 @@ def test_an_undo_names_the_edit_that_changed_something_since(tmp_path: Path) -> 
         project.unprepare(FIRST)
 
 
-def test_what_people_said_of_other_assets_since_stays_when_a_split_is_undone(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_what_people_said_of_other_assets_since_stays_when_a_split_is_undone(project: Project) -> None:
     before = kept(project)["events.jsonl"]
     project.cut(FIRST, "crumb", *PLANE)
     project.add_answer(Answer(1, SECOND, ["top"]))
@@ -108,8 +108,7 @@ def test_what_people_said_of_other_assets_since_stays_when_a_split_is_undone(tmp
     assert set(project.feedback().answers) == {f"1:{FIRST}", f"1:{SECOND}"}
 
 
-def test_an_answer_about_a_hull_that_was_split_since_fits_no_more_and_is_named(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_an_answer_about_a_hull_that_was_split_since_fits_no_more_and_is_named(project: Project) -> None:
     answer = Answer(1, THIRD, ["top"])
     project.add_answer(answer)
     project.cut(THIRD, "top", (0.5, 0.5, 1), (1, 0, 0))
@@ -118,8 +117,7 @@ def test_an_answer_about_a_hull_that_was_split_since_fits_no_more_and_is_named(t
     assert answer not in project.synthesize().stale
 
 
-def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(project: Project) -> None:
     project.cut(FIRST, "crumb", *PLANE)
     shutil.rmtree(project.layout.history)
     done = project.unprepare(FIRST)
@@ -225,8 +223,7 @@ BROKEN = {"no json": b"{", "no text": b"\xff", "a list": b"[]", "no fields": b'{
 
 @pytest.mark.parametrize("content", BROKEN)
 @pytest.mark.parametrize("kind", ["answers", "demonstration", "manual_edits"])
-def test_a_broken_file_is_named_and_nothing_is_written(tmp_path: Path, kind: str, content: str) -> None:
-    project = said(tmp_path)
+def test_a_broken_file_is_named_and_nothing_is_written(project: Project, kind: str, content: str) -> None:
     layout = project.layout
     path = layout.events if kind == "answers" else getattr(layout, kind)(FIRST)
     good = path.read_bytes()
@@ -257,8 +254,7 @@ def messages_of_status(project: Project) -> list[str]:
         return [error.message]
 
 
-def test_files_with_other_line_ends_come_back_bit_for_bit(tmp_path: Path) -> None:
-    project = said(tmp_path)
+def test_files_with_other_line_ends_come_back_bit_for_bit(project: Project) -> None:
     for path in (project.layout.events, project.layout.demonstration(FIRST)):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
     before = kept(project)

@@ -32,8 +32,12 @@ def labels_of(project: Project, asset: str) -> dict[str, str]:
     return {hull.name: hull.label for hull in project.mesh(asset).hulls if hull.label}
 
 
-def test_without_names_a_program_asks_for_the_hulls_of_steps_and_edits_the_others(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return shown(tmp_path)
+
+
+def test_without_names_a_program_asks_for_the_hulls_of_steps_and_edits_the_others(project: Project) -> None:
     assert str(project.program()).splitlines()[2:] == ["Is(part_a) => Delete", "Is(part_b) => Each(Merge)"]
     assert [labels_of(project, asset) for asset in project.assets()] == [PARTS] * 3
     assert not any(project.labels(asset).labels for asset in project.assets()), "nobody labelled anything"
@@ -41,8 +45,7 @@ def test_without_names_a_program_asks_for_the_hulls_of_steps_and_edits_the_other
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 3
 
 
-def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(project: Project) -> None:
     top = project.mesh(SECOND).hull_of("top")
     assert top.annotation and (top.annotation.name, top.label) == (NO_PART, None)
     assert project.tally_labels().unlabelled == 0
@@ -52,8 +55,7 @@ def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(tmp_
     }
 
 
-def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_a_class_gets_a_name_and_gives_it_back(project: Project) -> None:
     learned_files = frozenset({Layout.program.name, Layout.previous_program.name, Layout.learned.name})
     history = History(project.folder, lambda: learned_files)
     with history.record("named", {}, list_renamed_files(project)):
@@ -68,8 +70,7 @@ def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
     assert "Is(part_b)" in str(project.synthesize().program)
 
 
-def test_a_name_for_a_class_keeps_results_and_sign_offs_and_so_does_taking_it_back(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_a_name_for_a_class_keeps_results_and_sign_offs_and_so_does_taking_it_back(project: Project) -> None:
     list(project.apply(execution=IN_PROCESS))
     project.set_verdict(THIRD, "accepted")
     project.review(0.5, execution=IN_PROCESS)
@@ -86,8 +87,7 @@ def test_a_name_for_a_class_keeps_results_and_sign_offs_and_so_does_taking_it_ba
         history.undo()
 
 
-def test_two_parts_do_not_get_one_name_and_no_label_a_made_one(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_two_parts_do_not_get_one_name_and_no_label_a_made_one(project: Project) -> None:
     project.rename_label("part_b", "leg")
     for name in ("leg", "Leg"):
         with pytest.raises(ProjectError, match=r"there is a label 'leg' already\n.*ASSET 'HULLS=leg'"):
@@ -109,8 +109,7 @@ def test_the_hulls_of_two_steps_are_a_class_of_their_own(tmp_path: Path) -> None
     assert set(labels_of(project, FIRST).values()) == {"part_a", "part_ab", "part_b"}
 
 
-def test_an_answer_says_of_what_class_hulls_are(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_an_answer_says_of_what_class_hulls_are(project: Project) -> None:
     project.add_answer(Answer(1, THIRD, {"crumb", "top"}))
     project.add_answer(Answer(2, THIRD, LEGS))
     project.update_classes(dict(project.meshes_by_id()))
@@ -130,8 +129,7 @@ def test_classes_go_with_the_demonstration_and_make_way_for_labels(tmp_path: Pat
     assert not taken_back.layout.classes.ids
 
 
-def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_a_new_asset_gets_classes_when_the_program_is_applied(project: Project, tmp_path: Path) -> None:
     (tmp_path / "assets/table9").mkdir()
     shutil.copyfile(tmp_path / "assets/table1/model.obj", tmp_path / "assets/table9/model.obj")
     new = Project.open(project.folder)
@@ -141,15 +139,13 @@ def test_a_new_asset_gets_classes_when_the_program_is_applied(tmp_path: Path) ->
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 3)] * 4
 
 
-def test_hulls_that_were_cut_since_get_classes_when_the_program_is_applied(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_hulls_that_were_cut_since_get_classes_when_the_program_is_applied(project: Project) -> None:
     project.cut(THIRD, "crumb", (5.05, 5.05, 5.05), (1, 0, 0))
     done = list(project.apply([THIRD], execution=IN_PROCESS))
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(7, 3)]
 
 
-def test_a_class_that_is_taken_away_is_no_part_and_a_label_just_goes(tmp_path: Path) -> None:
-    project = shown(tmp_path)
+def test_a_class_that_is_taken_away_is_no_part_and_a_label_just_goes(project: Project) -> None:
     project.rename_label("part_b", "leg")
     project.set_labels(SECOND, {"crumb": None, "left_low": None})
     labels = project.labels(SECOND).labels
@@ -171,8 +167,7 @@ def test_a_name_for_some_hulls_of_a_class_takes_no_others_from_its_step(tmp_path
 @pytest.mark.parametrize(
     "content", ["", "{", "[]", '{"version": 9, "hulls": {}}', '{"hulls": {"top": {"source": "x"}}}']
 )
-def test_classes_that_are_damaged_are_none_and_made_again(tmp_path: Path, content: str) -> None:
-    project = shown(tmp_path)
+def test_classes_that_are_damaged_are_none_and_made_again(project: Project, content: str) -> None:
     places = [project.layout.classes(asset) for asset in project.assets()]
     whole = [place.read_text() for place in places]
     places[1].write_text(content)

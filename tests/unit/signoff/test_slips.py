@@ -58,8 +58,7 @@ def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     assert meant_by(question) == legs_of("t0")
 
 
-def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
-    _, state = show_without()
+def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own(state: ReviewState) -> None:
     nearest = Nearest(1, Is("leg"), "t0", (), (FORGOTTEN,))
     question = ask_about_nearest(state, nearest, 6.0)
     assert question is not None
@@ -83,19 +82,22 @@ def test_a_corrected_result_is_no_slip() -> None:
     assert ask_about_mistake(replace(state, corrected=frozenset(meant), meant=meant)) is None
 
 
-def test_results_that_are_all_wrong_lower_the_rest() -> None:
-    _, state = show_without()
+def test_results_that_are_all_wrong_lower_the_rest(state: ReviewState) -> None:
     wrong = {f"t{k}": (legs_of(f"t{k}"),) for k in range(1, 5)}
     after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
     assert probability(after, "t5") < probability(review(state), "t5")
     assert {"t1", "t2", "t3", "t4"} <= set(after.need_review)
 
 
-def test_results_of_a_program_that_is_no_more_do_not_count_against_the_one_there_is() -> None:
-    _, state = show_without()
+def test_results_of_a_program_that_is_no_more_do_not_count_against_the_one_there_is(state: ReviewState) -> None:
     wrong = {f"t{k}": (frozenset[str](),) for k in range(1, 5)}
     after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
     assert probability(after, "t5") == probability(review(state), "t5")
+
+
+@pytest.fixture
+def state() -> ReviewState:
+    return show_without()[1]
 
 
 def test_a_wrong_result_costs_the_more_the_less_it_was_expected() -> None:
@@ -111,8 +113,7 @@ def test_a_wrong_result_costs_the_more_the_less_it_was_expected() -> None:
     assert left["t4"] < left["t5"] < probability(before, "t3")
 
 
-def test_a_corrected_result_speaks_for_the_program_that_does_what_was_meant() -> None:
-    _, state = show_without()
+def test_a_corrected_result_speaks_for_the_program_that_does_what_was_meant(state: ReviewState) -> None:
     right = replace(state, corrected=frozenset({"t1"}), meant={"t1": (legs_of("t1"),)}, failed={"t1": (frozenset(),)})
     assert probability(review(right), "t5") > probability(review(state), "t5")
 
@@ -175,8 +176,7 @@ def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]
     return snooze(after, question), outcome
 
 
-def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about() -> None:
-    _, state = show_without()
+def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about(state: ReviewState) -> None:
     said = Answer(1, "t1", legs_of("t1") | {"handle0"})
     state, outcome = keep_label(replace(state, answers=(said,)), "handle0")
     question = review_family(state, outcome, model_family(list(state.meshes.values()))).question
@@ -188,16 +188,14 @@ def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about() 
     assert last is not None and (last.kind, last.asset) == ("demonstrate", "t1"), "what was said of it may be otherwise"
 
 
-def test_a_hull_that_was_left_out_though_its_label_is_kept_is_asked_about() -> None:
-    _, state = show_without()
+def test_a_hull_that_was_left_out_though_its_label_is_kept_is_asked_about(state: ReviewState) -> None:
     state, outcome = keep_label(replace(state, answers=(Answer(1, "t1", legs_of("t1") - {FORGOTTEN}),)), FORGOTTEN)
     question = ask_about_kept_label(state, outcome.repairs[0], 6.0)
     assert question is not None
     assert question.text == f"{FORGOTTEN} is leg, and rule 1 leaves it out: was it left out on t1 by mistake?"
 
 
-def test_nothing_is_asked_of_a_label_that_nobody_gave_or_where_nothing_was_said() -> None:
-    _, state = show_without()
+def test_nothing_is_asked_of_a_label_that_nobody_gave_or_where_nothing_was_said(state: ReviewState) -> None:
     repair = Repair(LabelFix("t1", "handle0", "handle", "leg"), 1, 0.6, "it looks like one")
     answered = replace(state, answers=(Answer(1, "t1", legs_of("t1") | {"handle0"}),))
     assert ask_about_kept_label(answered, repair, 6.0) is None
