@@ -1,1 +1,1 @@
-"""Labels out of files: labels files, segmented points, and what a dataset says of its links."""
+"""Labels out of files: labels files and segmented points."""
