@@ -99,7 +99,7 @@ def _has_news(
 ) -> bool:
     """Whether its labels file would change a label; one that cannot be read does, so that a person is told why.
 
-    Of points, and of what is said of links, whether nothing was taken from a file yet.
+    Of points, whether nothing was taken from a file yet.
     """
     path = label_file_beside(store.path(asset))
     if path and kind_of(path) != "labels file":
