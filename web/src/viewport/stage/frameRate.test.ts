@@ -29,6 +29,13 @@ describe("frames while the camera moves", () => {
     expect(shares.at(-1)).toBeLessThan(1);
   });
 
+  it("become coarse on a processor however slow drawing is, and not as the person pauses", () => {
+    expect(turn(new FrameRate(() => undefined, true), 0.6, 3).at(-1)).toBeLessThan(1);
+    const rate = new FrameRate(() => undefined, true);
+    const shares = [100, 101, 102].flatMap((now) => [...turn(rate, 0.016, 3, now), rate.begin(now + 0.3)]);
+    expect(new Set(shares)).toEqual(new Set([1]));
+  });
+
   it("stay fine after a single slow one", () => {
     const rate = new FrameRate(() => undefined);
     turn(rate, 0.016, 20);

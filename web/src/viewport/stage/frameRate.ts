@@ -13,6 +13,8 @@ export class FrameRate {
   private last = -Infinity;
   private moved = -Infinity;
   private heavy = false;
+  /** Whether the last frame was one of a move. */
+  private moving = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   private settles = -Infinity;
@@ -64,11 +66,13 @@ export class FrameRate {
     const isFirst = this.waits;
     this.waits = false;
     if (isFirst) this.rest(now); // however late it comes
-    if (moves && apart < PAUSE && !this.heavy) {
+    // on a processor the picture is also drawn as the hand pauses: without such a frame it did not, however late this one comes
+    if (moves && (apart < PAUSE || (this.slow && this.moving)) && !this.heavy) {
       this.taken = 0.6 * this.taken + 0.4 * apart;
       this.heavy = this.taken > SLOW;
       if (this.heavy) this.move(this.moved);
     }
+    this.moving = moves;
     return (moves && this.heavy) || isFirst ? SHARE : 1;
   }
 
