@@ -36,6 +36,13 @@ describe("frames while the camera moves", () => {
     expect(new Set(shares)).toEqual(new Set([1]));
   });
 
+  it("are of the move, coarse and without shadows, however long after it they are drawn", () => {
+    const rate = new FrameRate(() => undefined, true);
+    const late = (now: number) => (rate.move(now), [rate.begin(now + 0.5), rate.hasTime(now + 0.5)]);
+    expect([late(100), late(100.6), late(101.2)]).toEqual([[1, false], [0.5, false], [0.5, false]]);
+    expect([rate.begin(101.9), rate.hasTime(101.9)]).toEqual([1, true]);
+  });
+
   it("stay fine after a single slow one", () => {
     const rate = new FrameRate(() => undefined);
     turn(rate, 0.016, 20);
