@@ -81,8 +81,6 @@ function Columns() {
       )}
       <Centre />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
-        <StageColumn />
-        <Toasts />
         <Divider
           name="Width of the panel"
           along="x"
@@ -92,6 +90,8 @@ function Columns() {
           range={WIDTHS.panel}
           onChange={widen("panel")}
         />
+        <StageColumn />
+        <Toasts />
       </aside>
     </div>
   );
