@@ -1,7 +1,7 @@
 // The hulls that a question is about, each in its place on its asset; exceptions get another label, or are left out.
 import { type MouseEvent, useMemo } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
-import { exceptionOf, type Exceptions, keyOf } from "../../store/assessment";
+import { exceptionOf, type Exceptions, type HullInQuestion, keyOf } from "../../store/assessment";
 import { findOwnParts } from "../../store/commonParts";
 import { useOwnNames, useProject } from "../../store/project";
 import { countText } from "../../store/words";
@@ -72,8 +72,6 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
     </ul>
   );
 }
-
-type HullInQuestion = ReviewQuestionView["hulls"][number];
 
 /** An asset from a side where a hull is seen, or through what hides it. */
 function InSight({ asset, hull }: { asset: string; hull: string }) {
