@@ -52,7 +52,7 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
                   aria-label={`Open ${asset} with ${one.hull} selected`}
                   onClick={() => visit(asset, { kind: "source" }, [one.hull])}
                 >
-                  {hulls.length > FEW ? <Thumbnail asset={asset} of="source" highlight={[one.place]} label="" /> : <InSight asset={asset} hull={one.hull} />}
+                  {hulls.length > FEW ? <InPlace asset={asset} place={one.place} /> : <InSight asset={asset} hull={one.hull} />}
                   {own.length > 1 && <span className={css.where}>{shortOf(one.hull)}</span>}
                 </button>
                 {canVary && (
@@ -77,6 +77,11 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
 function InSight({ asset, hull }: { asset: string; hull: string }) {
   const names = useMemo(() => [hull], [hull]);
   return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
+}
+
+/** An asset as its card shows it, with a hull pointed out. */
+function InPlace({ asset, place }: { asset: string; place: number }) {
+  return <Thumbnail asset={asset} of="source" highlight={useMemo(() => [place], [place])} label="" />;
 }
 
 function Label({ name }: { name: string | null }) {
