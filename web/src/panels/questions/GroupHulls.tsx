@@ -16,7 +16,7 @@ import css from "./questions.module.css";
 const MOST = 200;
 
 /** Of so few, each is drawn from a side where it is seen. */
-const FEW = 12;
+const FEW = 24;
 
 interface GroupHullsProps {
   question: ReviewQuestionView;
