@@ -134,12 +134,18 @@ def test_names_are_what_an_asset_has_alone_and_columns_are_made_wider_by_keys(st
     assert row.inner_text().split() == ["00", "convex_00"] and row.get_attribute("title") == "convex_00"
     for name, column, key in (("family", "Family", "ArrowRight"), ("panel", "Stage", "ArrowLeft")):
         side = person.page.get_by_role("complementary", name=column)
-        before = (side.bounding_box() or {})["width"]
+        wide = side.evaluate("one => one.offsetWidth") + 32
         person.reach(person.page.get_by_role("separator", name=f"Width of the {name}"))
         person.press(key, key)
-        _until(person, lambda side=side, wide=before + 32: (side.bounding_box() or {})["width"] == wide)  # type: ignore[misc]
+        person.page.wait_for_function(
+            "([name, wide]) => document.querySelector(`[aria-label=${name}][data-part]`)?.offsetWidth === wide",
+            arg=[column, wide],
+        )
         person.page.reload()
-        _until(person, lambda side=side, wide=before + 32: (side.bounding_box() or {})["width"] == wide)  # type: ignore[misc]
+        person.page.wait_for_function(
+            "([name, wide]) => document.querySelector(`[aria-label=${name}][data-part]`)?.offsetWidth === wide",
+            arg=[column, wide],
+        )
 
 
 def test_a_label_of_300_characters_is_cut(studio: Studio, browser: Browser) -> None:
