@@ -4,9 +4,8 @@ import { type Filters as FiltersState, type LayoutState, setFilters, setLayout, 
 import { countByFilter, FILTERS } from "../store/family";
 import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
-import { Menu } from "../ui/Menu";
-import { ICONS } from "./Card";
-import { MEANINGS } from "./cardText";
+import { choiceLines, Menu } from "../ui/Menu";
+import { SIGNS } from "./cardText";
 import css from "./family.module.css";
 
 const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
@@ -51,17 +50,11 @@ function SearchField() {
       {search && <IconButton icon={X} name="Clear" onClick={() => setFilters({ search: "" })} />}
       <Menu
         trigger={<IconButton icon={ArrowDownUp} name={`Order: ${SORTS[sort].toLowerCase()}`} />}
-        lines={Object.entries(SORTS).map(([value, label]) => ({
-          label: value === sort ? `✓ ${label}` : label,
-          onSelect: () => setFilters({ sort: value as FiltersState["sort"], chosen: true }),
-        }))}
+        lines={choiceLines(SORTS, sort, (value) => setFilters({ sort: value, chosen: true }))}
       />
       <Menu
         trigger={<IconButton icon={Images} name={SIZES[thumbnails]} />}
-        lines={Object.entries(SIZES).map(([value, label]) => ({
-          label: value === thumbnails ? `✓ ${label}` : label,
-          onSelect: () => setLayout({ thumbnails: value as LayoutState["thumbnails"] }),
-        }))}
+        lines={choiceLines(SIZES, thumbnails, (value) => setLayout({ thumbnails: value }))}
       />
     </div>
   );
@@ -78,7 +71,7 @@ function Chips() {
   return (
     <div className={css.chips} role="group" aria-label="Show only">
       {there.map((name) => {
-        const Icon = ICONS[name];
+        const { Icon, meaning } = SIGNS[name];
         const on = only.includes(name);
         return (
           <button
@@ -87,7 +80,7 @@ function Chips() {
             className={css.chip}
             aria-pressed={on}
             data-badge={name}
-            title={`${on ? `Do not show only ${name}` : `Show only ${name}`}: ${MEANINGS[name]}`}
+            title={`${on ? `Do not show only ${name}` : `Show only ${name}`}: ${meaning}`}
             onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
           >
             <Icon size={12} aria-hidden />

@@ -117,7 +117,7 @@ export const isAsked = (state: Pick<ProjectState, "assessment">): boolean => ope
 
 /** Hulls of a group, by their keys, that get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
-type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;
+export type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;
 export const keyOf = ({ asset, hull }: HullInQuestion): string => `${asset}#${hull}`;
 
 /** The label that a hull of a group gets; null where it is left out. */

@@ -10,6 +10,10 @@ export interface MenuLine {
   onSelect: () => void;
 }
 
+/** A line for each of some values, of which one is chosen now. */
+export const choiceLines = <Value extends string>(texts: Readonly<Record<Value, string>>, now: Value, choose: (value: Value) => void): MenuLine[] =>
+  (Object.keys(texts) as Value[]).map((value) => ({ label: value === now ? `✓ ${texts[value]}` : texts[value], onSelect: () => choose(value) }));
+
 /** Not modal, as that hides controls from screen readers that still can take the focus; a shade takes clicks beside it. */
 export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (MenuLine | "line")[] }) {
   return (
