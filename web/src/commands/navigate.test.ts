@@ -69,6 +69,7 @@ test.each([["decompose", "decompose"], ["label-all", "label"]] as const)("a step
   const started = vi.spyOn(api, "startJob").mockResolvedValue({} as never);
   useProject.setState({ cards: { a: sampleCard({ asset: "a", hulls: 0, sources: 1 }), b: sampleCard({ asset: "b", hulls: 2, labels: [0, -1], confidence: [101, -1] }) } });
   setNext(kind);
+  useProject.setState(({ project }) => ({ project: { ...project, vocabulary: [{ name: "leg", text: "leg", color: "", is_class: false }] } }));
   expect(nextText(useProject.getState())).toBe("Look.");
   await run("Alt+Enter");
   await vi.waitFor(() => expect(started).toHaveBeenCalledOnce());
