@@ -4,6 +4,7 @@
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import pluralize, quote_path
@@ -13,8 +14,8 @@ from meshforge.store import Layout
 
 
 def choose_next_step(state: FamilyState) -> NextStep:
-    """Return the first thing that is missing."""
-    return (
+    """Return the first thing that is missing; where it is being done, the text says so."""
+    step = (
         _decompose(state)
         or (None if state.is_begun else _begin(state))
         or _wait_for_learning(state)
@@ -28,6 +29,7 @@ def choose_next_step(state: FamilyState) -> NextStep:
         or _review(state)
         or _end(state)
     )
+    return replace(step, text=state.running[step.kind]) if step.kind in state.running else step
 
 
 def _decompose(state: FamilyState) -> NextStep | None:
