@@ -2,20 +2,18 @@
 import type { Job } from "../wire";
 import { type ProjectState, useProject } from "./project";
 import { STAGE_OF, useWorkspace } from "./workspace";
-import { capitalize } from "./words";
 
 type State = Pick<ProjectState, "project" | "jobs">;
 
-/** The job that the next step names, as it is running; null where there is none. */
-export const jobOfNext = ({ project: { next }, jobs }: State): Job | null =>
-  jobs.findLast(({ title, state }) => state === "running" && title === next.text) ?? null;
+/** The job that the next step names, until it is over and another step is next; null where there is none. */
+export const jobOfNext = ({ project: { next }, jobs }: State): Job | null => jobs.findLast(({ title }) => title === next.text) ?? null;
 
-/** `Decomposing 9 assets: 3 of 9`; without a job that is running, the sentence of the step. */
+/** `Decomposing 9 assets: 3 of 9`; without a job, the sentence of the step. */
 export function nextText(state: State): string {
   const { text } = state.project.next;
   const job = jobOfNext(state);
   if (!job) return text;
-  const doing = job.doing ? `${text}. ${capitalize(job.doing)}` : text;
+  const doing = job.doing && job.doing !== text.toLowerCase() ? `${text}, ${job.doing}` : text;
   return job.done < job.total ? `${doing}: ${job.done} of ${job.total}` : `${doing}…`;
 }
 
