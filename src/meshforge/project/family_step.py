@@ -164,14 +164,12 @@ def _wait_for_learning(state: FamilyState) -> NextStep | None:
 
 def _continue_demonstration(state: FamilyState) -> NextStep | None:
     """Where just one asset is demonstrated and nothing else was done yet, more steps may come."""
-    example, *more = [asset for asset in state.assets if asset.demonstrated] or [None]
-    open_assets = [
-        asset for asset in state.assets if asset.hulls and asset.result_status.state in ("unknown", "needs review")
-    ]
-    others = [asset.id for asset in open_assets if asset is not example]
-    if state.has_replies or not example or more or not others or any(asset.output != "none" for asset in state.assets):
+    examples = [asset.id for asset in state.assets if asset.demonstrated]
+    is_open = ("unknown", "needs review")
+    others = [a.id for a in state.assets if a.hulls and not a.demonstrated and a.result_status.state in is_open]
+    if state.has_replies or len(examples) != 1 or not others or any(asset.output != "none" for asset in state.assets):
         return None
-    text = f"Show the next step on {example.id}, or see what the program does on {others[0]}."
+    text = f"Show the next step on {examples[0]}, or see what the program does on {others[0]}."
     return _step(state, "demonstrate", text, asset=others[0])
 
 

@@ -119,10 +119,10 @@ class Refresher:
         known = shown.program, shown.outcome, shown.assessment
         is_judged = not shown.learning and (not shown.assessing or shown.assessment is not None)
         feedback = project.feedback()
-        said = bool(feedback.verdicts or feedback.answers or feedback.replied)
+        has_replies = bool(feedback.verdicts or feedback.answers or feedback.replied)
         family = add_session(family, *known, propagation, problem)
         titles = {kind: job.title for job in self._pages.running_jobs for kind in _STEPS_OF.get(job.kind, ())}
-        family = replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=said, running=titles)
+        family = replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=has_replies, running=titles)
         # what is not looked at yet would be proposed though it is done
         step = shown.project.next if self.queue.remaining else choose_next_step(family)
         return build_project_view(project, step, problem, status.lost, propagation, new)
