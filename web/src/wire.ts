@@ -1248,8 +1248,8 @@ export interface Guess {
   error: string | null;
 }
 /**
- * What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it has;
- * done: how many changes of the project are done after it.
+ * What is undone at once. title, at: of the last of its changes, and when it was, as ISO 8601; changes: how many it
+ * has; done: how many changes of the project are done after it.
  */
 export interface HistoryAct {
   title: string;
