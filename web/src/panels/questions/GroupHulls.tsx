@@ -1,5 +1,5 @@
 // The hulls that a question is about, each in its place on its asset; exceptions get another label, or are left out.
-import type { MouseEvent } from "react";
+import { type MouseEvent, useMemo } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { exceptionOf, type Exceptions, type HullInQuestion, keyOf } from "../../store/assessment";
 import { findOwnParts } from "../../store/commonParts";
