@@ -145,7 +145,7 @@ def test_assets_without_labels_are_new_to_a_family_that_is_signed_off(tmp_path: 
     project = create_stools(tmp_path, {"a": (0.2, 0.4), "b": (0.22, 0.45)}, "")
     project.write_program(Program.parse("Is(leg) => Delete"))
     if is_signed:
-        digests = {"asset": {}, "templates": {}, "labels": None, "manual_edits": None}
+        digests: dict[str, Any] = {"asset": {}, "templates": {}, "labels": None, "manual_edits": None}
         basis = SignOffBasis.model_validate(digests | dict.fromkeys(("program", "settings", "software"), ""))
         signed = SignOff(asset="a.urdf", by="person", when="2026-01-01", probability=1, rests_on=basis)
         project.write_sign_offs({"a.urdf": signed})
