@@ -11,9 +11,9 @@ from time import monotonic
 from typing import Any
 
 from meshforge.batch import read_stamp
-from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
+from meshforge.common import MeshForgeError, StoppedError, describe_error, file_state
 from meshforge.labels import OfferCache
-from meshforge.project import AssetStatus, Project, Status, StepKind, choose_next_step, find_offers, list_new
+from meshforge.project import NO_LABEL, AssetStatus, Project, Status, StepKind, choose_next_step, find_offers, list_new
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
@@ -152,7 +152,7 @@ class Refresher:
             self._job, self._read = None, 0
 
 
-_Basis = tuple[FileState | None, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]
+_Basis = tuple[object, ...]
 
 
 class NewAssetsQuery:
@@ -165,8 +165,11 @@ class NewAssetsQuery:
 
     def find(self, project: Project, cards: Iterable[Card]) -> tuple[NewAssetsView | None, str | None]:
         """Return the new assets, None where there are none; and why they are not known, where a file is damaged."""
-        done = tuple((card.asset, card.prepared) for card in cards if card.prepared)
-        basis = file_state(project.layout.preparation_plan), project.assets(), done
+        rows = tuple(cards)
+        done = tuple((card.asset, card.prepared) for card in rows if card.prepared)
+        bare = tuple(card.asset for card in rows if all(label == NO_LABEL for label in card.labels))
+        files = file_state(project.layout.preparation_plan), file_state(project.layout.sign_offs)
+        basis = files, file_state(project.layout.program), project.assets(), done, bare
         if basis != self._basis:
             self._basis, self._found = basis, _find_new_assets(project)
         return self._found
