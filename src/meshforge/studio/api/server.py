@@ -112,11 +112,10 @@ class _LastFile(JsonFile):
 
 
 class LastAddress:
-    """The port and the token that the studio of a project, or the start page, had last, so that pages that are still open
-    connect again by themselves.
+    """The port and the token that the studio of a project, or the start page, had last: open pages connect by them.
 
-    They lie in the user's state folder, in a file that only the user can read: never in the project, which may be shared
-    or committed. A token is used again on its own port alone.
+    They lie in the user's state folder, in a file that only the user can read: never in the project, which may be
+    shared or committed. A token is used again on its own port alone.
     """
 
     def __init__(self, state: Path, folder: Path | None) -> None:
