@@ -61,7 +61,7 @@ interface Had {
 function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; failed: boolean } {
   const [{ map, of }, setMap] = useState<Had>(() => ({ map: url === undefined ? null : findPicture(url), of: url }));
   const [failed, setFailed] = useState(false);
-  const connected = useProject((state) => state.connected);
+  const health = useProject((state) => `${state.connected} ${state.project.problem}`);
   useEffect(() => {
     const there = url === undefined ? null : findPicture(url);
     if (there) {
@@ -89,7 +89,7 @@ function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; 
       clearTimeout(timer);
       drop?.();
     };
-  }, [url, png, connected]);
+  }, [url, png, health]);
   return { map, current: of === (png ?? url), failed };
 }
 
