@@ -138,7 +138,15 @@ class Pointer(Expert):
             self.person.hull(hull, *keys)
             self.person.actions -= len(keys)  # TODO
         else:
-            self.person.click(self.person.page.locator(f'[role=row][data-name="{hull}"]'), modifiers=list(keys))
+            row = self.person.page.locator(f'[role=row][data-name="{hull}"]')
+            self.person.page.get_by_role("grid", name="Hulls").hover()
+            for _ in range(60):
+                if row.count():
+                    break
+                self.person.page.mouse.wheel(0, 200)
+                self.person.page.wait_for_timeout(50)
+            self.person.actions += 1
+            self.person.click(row, modifiers=list(keys))
 
     def _selected(self) -> frozenset[str]:
         return frozenset(self.person.page.evaluate("window.meshforgeViewport.selected()"))

@@ -217,11 +217,11 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
     if not state.asks_labels or not bare:
         return None
     why = f"{_count_assets(bare, 'has', 'have')} no label"
+    if not state.vocabulary:  # they get classes when the program is applied
+        return None
     if any(asset.result_status.state == "signed off" for asset in state.assets):
         text = f"{_count_assets(bare, 'is', 'are')} new: apply the program, which labels them like the others first."
         return _step(state, "apply", text, "apply")
-    if not state.vocabulary:  # they get classes when the program is applied
-        return None
     if step := _take_offers(state, bare):
         return step
     if _has_whole(state):

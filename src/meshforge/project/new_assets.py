@@ -102,9 +102,10 @@ def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
 
 
 def _find_unlabelled(store: Store) -> list[str]:
-    """The assets without labels of a family of which some are signed off, where the program asks for labels."""
+    """The assets without labels of a family with names of which some are signed off, where the program asks for
+    labels; without names they get classes when it runs."""
     program = store.program()
-    if program is None or not program.labels_asked or not store.sign_offs():
+    if program is None or not store.settings.vocabulary or not program.labels_asked or not store.sign_offs():
         return []
     assets, excluded = store.assets(), store.exclusions()
     bare = [asset for asset in assets if asset not in excluded and not _has_labels(store, asset)]
