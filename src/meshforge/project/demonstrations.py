@@ -43,6 +43,12 @@ def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) 
     return bool(selected) and all(step.select is None or selected.get(step.rule) == step.select for step in steps)
 
 
+def is_wrong_as_shown(steps: Iterable[synthesis.Step], verdict: files.VerdictEvent) -> bool:
+    """Return whether a person called wrong what the steps of the asset show; where they show something else, that is
+    the correction."""
+    return verdict.verdict == "wrong" and not verdict.meant and shows(steps, verdict.seen)
+
+
 def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], origin: Origin = NO_ORIGIN) -> None:
     """Select other hulls in a step of a demonstration after a mistake; on an asset that is not demonstrated by an
     answer, and what was accepted there counts no more. Raises ProjectError where there is no such step, and as

@@ -11,7 +11,7 @@ from meshforge import batch
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project import run
-from meshforge.project.demonstrations import actions_of, shows
+from meshforge.project.demonstrations import actions_of, is_wrong_as_shown
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import is_written
@@ -19,7 +19,7 @@ from meshforge.signoff import EditMeasures, ReviewState, measure_edit
 from meshforge.signoff.question import Selections
 from meshforge.store import ConfidenceLine, Store, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, memoize
+from meshforge.synthesis import memoize
 
 
 def read_family_state(
@@ -42,7 +42,7 @@ def read_family_state(
     }
     every = {asset: some for asset, some in feedback.verdicts.items() if asset in meshes}
     last = {asset: some[-1] for asset, some in every.items()}
-    own = {a for a, one in last.items() if a not in demos or _is_wrong_as_shown(demos[a], one)}
+    own = {a for a, one in last.items() if a not in demos or is_wrong_as_shown(demos[a].steps, one)}
     meant = {a: last[a].meant or (last[a].seen if last[a].verdict == "accepted" else ()) for a in last if a in own}
     wrong = {a: [one.seen for one in some if one.verdict == "wrong"] for a, some in every.items() if a in own}
     accepted = {asset: one for asset, one in last.items() if one.verdict == "accepted"}
@@ -87,10 +87,6 @@ def _stands(
     if verdict.seen and not verdict.meant:
         return program is not None and run.run_for_selections(store, program, mesh) == verdict.seen
     return now is not None and is_written(stamp, now)
-
-
-def _is_wrong_as_shown(demo: Demonstration, last: VerdictEvent) -> bool:
-    return last.verdict == "wrong" and not last.meant and shows(demo.steps, last.seen)
 
 
 def _fit(rows: Mapping[str, Sequence[batch.RuleSelection]], program: Program | None) -> dict[str, Selections]:

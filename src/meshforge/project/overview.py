@@ -6,7 +6,7 @@ from functools import partial
 
 from meshforge import batch, labels, language, symbolic
 from meshforge.common import MeshForgeError, format_share, quote_path, relative_name
-from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.demonstrations import find_unknown_hulls, is_wrong_as_shown
 from meshforge.project.family_step import choose_next_step
 from meshforge.project.goals import read_goal_statuses
 from meshforge.project.hull_mapping import describe_replaced
@@ -155,14 +155,17 @@ def _asset_status(
     except MeshForgeError as error:
         file, unreadable = symbolic.LabelFile(), error.message
     homes = symbolic.match_labels(symbolic.LabelFile() if facts.error else file, facts.hulls)
+    is_shown = store.layout.demonstration(job.id).exists()
     is_current = bool(review and (review.output == output_digest(stamp) or review.verdict == "wrong"))
+    if is_current and review and is_shown and review.verdict == "wrong" and not review.meant:
+        is_current = is_wrong_as_shown(store.steps(job.id), review)
     current_review = review if is_current else None
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),
         labelled=len(homes.labels),
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
-        demonstrated=store.layout.demonstration(job.id).exists(),
+        demonstrated=is_shown,
         output=stamp.status if stamp else "none",
         stale=_find_changes(output, edit),
         error=facts.error or unreadable or failed,
