@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import TokenCount
 from meshforge.labels.vlm.question import Message, Part, Reply, VlmQuestion
 
 ROUNDS = 5
@@ -77,7 +76,6 @@ def find_code(text: str) -> str:
 
 
 def _count(written: Answer, reply: Reply) -> None:
-    usage = reply.usage or TokenCount()
     written.rounds += 1
-    written.input, written.output = written.input + usage.input, written.output + usage.output
+    written.input, written.output = written.input + reply.input_tokens, written.output + reply.output_tokens
     written.cost += reply.cost

@@ -91,7 +91,7 @@ def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: S
     run("label", "p", "--with", "vlm", "--dry-run", "--vocabulary", "top,foot")
     assert Project.open(tmp_path / "p").vocabulary == ("top", "leg", "misc")
     found = json.loads(run("label", "p", "--with", "vlm", "--dry-run", "--json", "--model", "other").out)
-    assert (found["model"], found["every_hull"], found["key_is_set"]) == ("other", True, True)
+    assert (found["model"], found["every_hull"]) == ("other", True)
 
 
 @pytest.mark.slow
@@ -102,7 +102,7 @@ def test_a_dry_run_says_that_the_key_or_the_prices_are_not_there(
     settings = tmp_path / "p/meshforge.toml"
     settings.write_text(settings.read_text().replace("input_price = 1\n", ""))
     told = run("label", "p", "--with", "vlm", "--dry-run").out
-    assert f"the key is not there: the environment variable {VARIABLE} is not set\n" in told
+    assert f"the environment variable {VARIABLE}, which holds the key, is not set\n" in told
     assert "out: price not known\n" in told
 
 
@@ -124,7 +124,6 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
         (("--labels", "x"), "--labels is for --with file"),
-        (("--mode", "exact"), "there is no mode now: every_hull = true (--every-hull) asks about all"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

@@ -24,9 +24,19 @@ from meshforge.labels.vlm.prompt import HullQuestion, MeshHulls, PromptConfig, b
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label
 from tests.examples import examples
-from tests.loopback import FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
+from tests.loopback import FAULTS, KEY, Asked, Server, labels_as_json, serving, sometimes, status
 from tests.unit.batch.families import label_of
-from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, label_with_vlm, right, settings, truth
+from tests.unit.labels.vlm_family import (
+    VARIABLE,
+    WORDS,
+    family,
+    forecast,
+    hulls,
+    label_with_vlm,
+    right,
+    settings,
+    truth,
+)
 
 MANY = 200
 
@@ -69,7 +79,7 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
         project = family(tmp_path / name, 5)
         (project.path("t003.obj")).write_text("f 1 2 3\n")
         with serving(right) as server:
-            seen = project.forecast_vlm(settings(server), execution=spread)
+            seen = forecast(project, settings(server), spread)
             assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
             found = label_with_vlm(project, settings(server), execution=spread)
             asked.append(sorted(one.raw for one, _, _ in server.asked))
@@ -133,7 +143,7 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
         assert faults > 0.1 * MANY
         assert max(Counter(asked.raw for asked in server.answered).values()) == 1  # nothing asked twice
         assert found.usage.cost == pytest.approx(charged(server))
-        assert (found.usage.usage.input, found.usage.usage.output) == (server.usage["input"], server.usage["output"])
+        assert (found.usage.input, found.usage.output) == (server.usage["input"], server.usage["output"])
         broken = sum(not whole for _, _, whole in server.asked)  # slow ones may be under way there still
         assert found.usage.retries + len(hopeless) >= broken
 
@@ -231,7 +241,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
     project = Project.open(project.folder)
     with serving(right) as server:
         how = settings(server)
-        told = project.forecast_vlm(how)
+        told = forecast(project, how)
         assert not server.asked
         assert not (project.layout.vlm).exists()
         found = label_with_vlm(project, how)
@@ -241,7 +251,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
         assert told.cost == pytest.approx((told.input + 4 * told.output) / 1e6)
         assert told.output / 3 < server.usage["output"] < told.output * 3
         assert (told.host, told.model, told.every_hull) == (server.base_url[7:-3], server.model, True)
-        after = project.forecast_vlm(how)
+        after = forecast(project, how)
         assert (after.known, after.pictures, after.input, after.cost) == (3, 0, 0, 0.0)
     (broken,) = [report for report in found.outcomes if report.problems]
     assert broken.asset == "broken.obj"
@@ -378,7 +388,6 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('modell = "x"', "there is no such field as vlm.modell"),
-        ('mode = "cheap"', "the field vlm: there is no mode now: every_hull = true"),
         ("concurrency = 0", "the field vlm.concurrency"),
         ("input_price = -1", "the field vlm.input_price"),
         ("size = 3", "the field vlm.size"),
@@ -452,7 +461,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
 
     monkeypatch.setattr(prompt, "build_questions", draw)
     with serving(right) as server:
-        assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
+        assert forecast(project, settings(server)).unreadable == ("t001.obj",)
         found = label_with_vlm(project, settings(server))
     assert [report.taken for report in found.outcomes] == [6, 0, 6]
     assert "t001.obj: ZeroDivisionError: no room for the picture" in found.outcomes[1].problems[0]

@@ -1,9 +1,8 @@
-"""Questions asked, once more where something is open, and what their answers say of hulls: read leniently, and added up
-over questions and repeats."""
+"""Questions asked, once more where something is open, and what their answers say of hulls, read leniently."""
 
 import json
 import re
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -22,10 +21,7 @@ _UNANSWERED = "the question got no answer"
 _NOT_KNOWN = "the model does not know"
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
-
-_AGAINST = 0.4
-"""What speaks against every label from the outset, in votes: one vote alone makes a confidence of 0.71, two that agree
-0.83, two against one 0.59."""
+_CONFIDENCE = 0.71  # of a label that a model gives; not measured
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +82,6 @@ def _entries(text: str) -> Iterator[tuple[int, str]]:
                 yield int(match[1]), word
 
 
-def decide_label(votes: Sequence[str], words: Sequence[str]) -> tuple[str, float] | None:
-    """Return the word with most votes, of equals the first, and its confidence; None where there is no vote."""
-    count = Counter(votes)
-    best = max(words, key=count.__getitem__)
-    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if votes else None
-
-
 def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
     """Return the question with its answer, and words that ask for what that left open; with more room if it was cut."""
     odd = ", ".join(json.dumps(word, ensure_ascii=False) for word in answer.unrecognised)
@@ -119,11 +108,11 @@ def ask_questions(
     client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
 ) -> VlmAnswers:
     """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
-    votes, why, failed = defaultdict[HullKey, list[str]](list), dict[HullKey, str](), dict[str, None]()
+    said, why, failed = dict[HullKey, str](), dict[HullKey, str](), dict[str, None]()
     words = (*config.vocabulary, config.unknown)
     for one in questions:
         question, left = one.question, tuple(one.hulls)
-        why = {one.hulls[number]: _UNANSWERED for number in left} | why
+        why |= dict.fromkeys(one.hulls.values(), _UNANSWERED)
         for _ in range(2):
             try:
                 reply = client.ask(question)
@@ -131,18 +120,19 @@ def ask_questions(
                 failed[error.sentence] = None
                 break
             answer = read_answer(reply.text, left, words)
-            for number, label in answer.labels.items():
-                votes[one.hulls[number]].append(label)
+            said |= {one.hulls[number]: label for number, label in answer.labels.items()}
             left = answer.open
             cause = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
             why |= {one.hulls[number]: cause for number in left}
             if not left:
                 break
             question = ask_again(question, reply, answer)
+    why |= {key: _NOT_KNOWN for key, label in said.items() if label == config.unknown}
     labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
     for asset, hull in why if wanted is None else filter(wanted.__contains__, why):
-        if found := decide_label(votes[asset, hull], words):
-            labels[asset][hull] = Label(*found, "vlm")
-        if not found or found[0] == config.unknown:
-            left_open[asset][hull] = _NOT_KNOWN if found else why[asset, hull]
+        label = said.get((asset, hull), config.unknown)
+        if (asset, hull) in said:
+            labels[asset][hull] = Label(label, _CONFIDENCE, "vlm")
+        if label == config.unknown:
+            left_open[asset][hull] = why[asset, hull]
     return VlmAnswers(dict(labels), dict(left_open), tuple(failed))

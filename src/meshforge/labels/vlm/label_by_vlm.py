@@ -1,26 +1,27 @@
 """Labels from a model: of exemplars, propagated to all hulls that are like them, or of every hull; and what that would
 cost."""
 
-from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import closing
 from dataclasses import dataclass, replace
+from threading import BoundedSemaphore
+from typing import Any
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.label_model import reference_label
 from meshforge.labels.family_comparison import FamilyDescription, compare_assets
-from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.cost import Usage, estimate_tokens
-from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
+from meshforge.labels.vlm.endpoint import Endpoint, check_approved
 from meshforge.labels.vlm.plan import QuestionBatch, draw_questions, plan_questions
 from meshforge.labels.vlm.prompt import PromptConfig
-from meshforge.store import Store, VlmSettings
+from meshforge.store import VlmSettings
 from meshforge.symbolic import Label
 
 _LIKE_UNKNOWN = "the model does not know hulls that are like it"
-_WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
+_AHEAD = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,22 +67,21 @@ class VlmLabeler(Labeler):
         described, plans = plan_questions(family, config)
         lost, hulls = (described.lost, dict(described.hulls)) if described else ({}, {})
         labels, left = dict[str, Mapping[str, Label]](), dict[str, Mapping[str, str]]()
-        problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
+        problems, reached = dict[str, tuple[str, ...]](), set[str]()
         client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
         with closing(client), family.stage(len(plans), "asking") as advance:
-            for drawn, answers in _ask(client, family, config, draw_questions(family, plans, config)):
+            asked = _ask(client, config, draw_questions(family, plans, config), stop, advance)
+            for drawn, answers in asked:
                 hulls |= drawn.assets
                 labels |= answers.labels
                 left |= answers.open
                 lost |= dict.fromkeys(drawn.plan, drawn.error) if drawn.error else {}
                 problems[next(iter(drawn.plan))] = answers.failed
                 reached |= {*drawn.plan} if answers.labels or not answers.failed else set()
-                done += 1
-                advance()
         end = client.end
         if end and not client.usage.answered + client.usage.cached:
             raise end
-        is_whole = not end and done == len(plans)
+        is_whole = not end and len(asked) == len(plans)
         ended = None if is_whole else end.message if end else "stopped"
         unasked = () if is_whole else tuple(asset for asset in store.assets() if asset not in reached)
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
@@ -100,28 +100,32 @@ class VlmLabeler(Labeler):
 
 
 def _ask(
-    client: Client, family: LabelFamily, config: PromptConfig, questions: Generator[QuestionBatch, None, None]
-) -> Iterator[tuple[QuestionBatch, VlmAnswers]]:
-    """Yield questions with their answers, in order, as long as asking goes on; several are under way at once."""
-    stop, concurrency = family.execution.stop or (lambda: False), config.settings.concurrency
-    threads = ThreadPoolExecutor(concurrency, "asking")
-    waiting = list[tuple[QuestionBatch, Future[VlmAnswers]]]()
+    client: Client,
+    config: PromptConfig,
+    questions: Generator[QuestionBatch, None, None],
+    stop: Callable[[], bool],
+    advance: Callable[[], None],
+) -> list[tuple[QuestionBatch, VlmAnswers]]:
+    """Return questions with their answers, in order, as far as asking goes on; several are under way at once."""
+    room = BoundedSemaphore(_AHEAD * config.settings.concurrency)
 
-    def take() -> tuple[QuestionBatch, VlmAnswers]:
-        drawn, future = waiting.pop(0)
-        while not future.done():
-            stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
-            wait([future], timeout=0.1)
-        return drawn, future.result()
+    def ask(one: QuestionBatch) -> tuple[QuestionBatch, VlmAnswers]:
+        try:
+            return one, ask_questions(client, config, one.questions, one.wanted)
+        finally:
+            room.release()
+            advance()
 
+    threads, asked = ThreadPoolExecutor(config.settings.concurrency, "asking"), list[Future[Any]]()
     try:
         with closing(questions):
             while not (client.end or stop()) and (one := next(questions, None)):
-                waiting.append((one, threads.submit(ask_questions, client, config, one.questions, one.wanted)))
-                while waiting and (len(waiting) > _WAITING * concurrency or waiting[0][1].done()):
-                    yield take()
-        while waiting:
-            yield take()
+                while not room.acquire(timeout=0.1):
+                    stop()
+                asked.append(threads.submit(ask, one))
+        while wait(asked, timeout=0.1).not_done:
+            stop()  # asked all the time, as it says that what is under way is waited for
+        return [future.result() for future in asked]
     finally:  # no more is asked; what is under way is kept when its answer comes, yet not waited for
         threads.shutdown(wait=False, cancel_futures=True)
 
@@ -145,8 +149,7 @@ def _propagate(
 
 @dataclass(slots=True)
 class VlmForecast:
-    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars; key: the
-    environment variable of the key, empty where none is wanted, and whether it is set.
+    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars.
 
     assets, hulls: how many of them are asked about; questions, of which `known` have their answers already; pictures,
     input, output: what the others send, and tokens that this may come to; cost: their price [$], None where prices are
@@ -156,8 +159,6 @@ class VlmForecast:
     host: str
     model: str
     every_hull: bool
-    key: str
-    key_is_set: bool
     assets: int = 0
     hulls: int = 0
     questions: int = 0
@@ -169,40 +170,28 @@ class VlmForecast:
     unreadable: tuple[str, ...] = ()
 
 
-def forecast_vlm(
-    store: Store,
-    settings: VlmSettings | None = None,
-    *,
-    progress: Callable[[], None] = lambda: None,
-    stop: Callable[[], bool] = lambda: False,
-    vocabulary: Sequence[str] | None = None,
-    execution: ExecutionOptions = IN_PROCESS,
-) -> VlmForecast:
-    """Return what `VlmLabeler` would send and what that costs, with nothing sent; vocabulary: one to try instead.
+def forecast_vlm(family: LabelFamily, settings: VlmSettings) -> VlmForecast:
+    """Return what `VlmLabeler` would send and what that costs, with nothing sent.
 
     Questions that have to be asked again come on top of it.
     """
-    settings = settings or store.settings.vlm
-    endpoint = Endpoint(settings)
-    config = PromptConfig(store.vocabulary if vocabulary is None else tuple(vocabulary), settings)
-    found = VlmForecast(endpoint.host, settings.model, settings.every_hull, endpoint.key_name, endpoint.has_key)
-    family = LabelFamily(store, config.vocabulary, execution, ignore_stage)
-    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
+    endpoint, config = Endpoint(settings), PromptConfig(family.vocabulary, settings)
+    found = VlmForecast(endpoint.host, settings.model, settings.every_hull)
+    client = Client(endpoint, family.store.layout.vlm, max_cost=settings.max_cost)
     described, plans = plan_questions(family, config)
     found.unreadable = tuple(described.lost) if described else ()
-    with closing(draw_questions(family, plans, config)) as drawn:
-        while not stop() and (one := next(drawn, None)):
+    with family.stage(len(plans), "drawing") as advance, closing(draw_questions(family, plans, config)) as drawn:
+        for one in drawn:
             found.unreadable += (*one.plan,) if one.error else ()  # `VlmLabeler` says then what is wrong
             found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
             found.questions += len(one.questions)
-            fresh = [asked for asked in one.questions if not client.find_answer(asked.question)]
+            fresh = [asked.question for asked in one.questions if not client.find_answer(asked.question)]
             found.known += len(one.questions) - len(fresh)
-            found.pictures += sum(len(asked.question.digests) for asked in fresh)
-            found.input += sum(estimate_tokens(asked.question) for asked in fresh)
-            found.output += sum((asked.question.limit - settings.room) // 2 for asked in fresh)
-            for _ in one.plan:
-                progress()
+            found.pictures += sum(len([*question.pictures]) for question in fresh)
+            found.input += sum(map(estimate_tokens, fresh))
+            found.output += sum((question.limit - settings.room) // 2 for question in fresh)
+            advance()
     if endpoint.is_priced:
-        found.cost = endpoint.price(TokenCount(found.input, found.output))
+        found.cost = endpoint.price(found.input, found.output)
     return found

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import UsageError
-from meshforge.labels.vlm.question import Message, Part, VlmQuestion
+from meshforge.labels.vlm.question import Message, Part, VlmQuestion, make_object_schema
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
 from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
@@ -86,7 +86,7 @@ class HullQuestion:
 
 
 def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
-    """Return the question about hulls of some meshes, once for each repeat; of one with very many hulls several."""
+    """Return the question about hulls of some meshes; of one with very many hulls several."""
     first, *more = meshes
     if not more and len(first.hulls) > _MOST_HULLS:
         groups = (replace(first, hulls=hulls) for hulls in _split(first.hulls, _MOST_HULLS))
@@ -94,8 +94,7 @@ def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[
     pictures, hulls = _show_meshes(meshes, config)
     messages = _task_message(config, f"+{up_axis(first.mesh)}"), *config.examples, pictures
     limit = config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
-    question = VlmQuestion(messages, _answer_schema(config), limit)
-    return tuple(HullQuestion(replace(question, repeat=k), hulls) for k in range(config.settings.repeats))
+    return (HullQuestion(VlmQuestion(messages, _answer_schema(config), limit), hulls),)
 
 
 def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
@@ -176,13 +175,9 @@ def _task_message(config: PromptConfig, up: str) -> Message:
 def _answer_schema(config: PromptConfig) -> dict[str, Any]:
     """What the object is and its parts come first, so that the labels follow from them."""
     label = {"type": "string", "enum": [*config.vocabulary, config.unknown]}
-    row = _object_schema(number={"type": "integer"}, label=label)
+    row = make_object_schema(number={"type": "integer"}, label=label)
     parts = {"type": "array", "items": {"type": "string"}}
-    return _object_schema(object={"type": "string"}, parts=parts, hulls={"type": "array", "items": row})
-
-
-def _object_schema(**fields: Any) -> dict[str, Any]:
-    return {"type": "object", "properties": fields, "required": [*fields], "additionalProperties": False}
+    return make_object_schema(object={"type": "string"}, parts=parts, hulls={"type": "array", "items": row})
 
 
 def _to_line(text: str) -> str:

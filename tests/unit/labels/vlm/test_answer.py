@@ -6,13 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.labels.vlm.answer import HullAnswer, decide_label, read_answer
+from meshforge.labels.vlm.answer import HullAnswer, read_answer
 
 WORDS = ("leg", "table top", "drawer_front", "Füße")
 RIGHT = '{"hulls": [{"number": 0, "label": "leg"}, {"number": 2, "label": "table top"}]}'
 ANSWERS = {0: "leg", 2: "table top"}
-PARTS = ("leg", "panel", "unknown")
-VOTES = st.lists(st.sampled_from(PARTS), min_size=1, max_size=8)
 
 
 def read(text: str, asked: tuple[int, ...] = (0, 2)) -> HullAnswer:
@@ -97,25 +95,3 @@ def test_a_cut_answer_never_says_another_label(said: dict[int, str], share: floa
     text = json.dumps({"hulls": [{"number": number, "label": label} for number, label in said.items()]})
     answer = read(text[: int(share * len(text))], tuple(said))
     assert answer.labels.items() <= said.items()
-
-
-def test_votes_that_agree_make_a_label_surer() -> None:
-    found = [decide_label(["leg"] * count, PARTS) for count in (1, 2, 5)]
-    assert found == [("leg", 0.7143), ("leg", 0.8333), ("leg", 0.9259)]
-    assert decide_label(["leg", "leg", "panel"], PARTS) == ("leg", 0.5882)
-
-
-def test_of_equals_the_first_counts_and_without_a_vote_there_is_no_label() -> None:
-    assert decide_label(["unknown", "unknown", "leg"], PARTS) == ("unknown", 0.5882)
-    assert decide_label(["unknown", "leg"], PARTS) == ("leg", 0.4167)
-    assert decide_label([], PARTS) is None
-
-
-@given(votes=VOTES)
-def test_one_more_vote_for_the_winner_never_makes_it_less_sure(votes: list[str]) -> None:
-    found = decide_label(votes, PARTS)
-    assert found is not None
-    more = decide_label([*votes, found[0]], PARTS)
-    assert more is not None
-    assert more[0] == found[0]
-    assert more[1] >= found[1] - 1e-4

@@ -60,7 +60,7 @@ def test_with_faults_the_limit_holds_even_if_lost_attempts_are_charged(tmp_path:
         bill = one.usage
         assert bill.cost == pytest.approx(spent(server))
         assert bill.cost is not None and bill.cost + bill.perhaps <= 12.0
-        assert bill.lost > 0
+        assert bill.perhaps > 0
 
 
 def test_other_questions_under_way_are_waited_for_and_do_not_end_it(tmp_path: Path) -> None:
@@ -81,4 +81,4 @@ def test_without_prices_tokens_are_counted_and_no_cost_is_told() -> None:
         one = client(server)
         one.ask(question())
         assert one.usage.cost is None
-        assert one.usage.usage.input == server.usage["input"]
+        assert one.usage.input == server.usage["input"]
