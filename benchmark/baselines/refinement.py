@@ -64,8 +64,8 @@ def refine(client: Client, opening: tuple[Message, ...], try_answer: Callable[[s
             written.text, least = one.text, one.wrong
         written.fits = one.text is not None and not one.wrong
         cut = ("Your answer was cut off: answer more briefly.\n",) if reply.is_cut else ()
-        back = Message.assistant(reply.text[:_QUOTED].strip() or "-")
-        messages = (*messages, back, Message.user(*cut, *one.said))
+        back = Message("assistant", (reply.text[:_QUOTED].strip() or "-",))
+        messages = (*messages, back, Message("user", (*cut, *one.said)))
     return written
 
 

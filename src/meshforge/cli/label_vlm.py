@@ -1,7 +1,6 @@
 """`meshforge label --with vlm`: what would be sent, or what a model said and what it cost."""
 
 import sys
-from collections.abc import Callable
 from dataclasses import asdict, replace
 
 import typer
@@ -45,24 +44,12 @@ def label_with_vlm(
             raise
         approve_host(endpoint.host)
     remark(sending)
-    with catch_interrupt() as stop:
-        execution = replace(execution, stop=_announce_stop(stop))
+    with catch_interrupt("stopping: waiting for the answers that are under way\n") as stop:
+        execution = replace(execution, stop=stop)
         project.label(labeler, execution=execution, stage=progress, report=printer.print)
     printer.failed |= bool(labeler.result.ended)
     printer.summarize()
     _print_end(project, labeler, json=printer.json)
-
-
-def _announce_stop(stop: Callable[[], bool]) -> Callable[[], bool]:
-    """The same, which says so when a stop is wanted for the first time; it is asked all the time."""
-    texts = ["stopping: waiting for the answers that are under way"]
-
-    def wrapped() -> bool:
-        if stop() and texts:
-            remark(texts.pop())
-        return stop()
-
-    return wrapped
 
 
 def _print_end(project: Project, labeler: VlmLabeler, *, json: bool) -> None:
@@ -97,22 +84,21 @@ def _describe_usage(usage: Usage) -> str:
 
 def print_forecast(family: LabelFamily, settings: VlmSettings, *, json: bool) -> None:
     """Print what would be sent and what it may cost; nothing is sent."""
-    found = forecast_vlm(family, settings)
+    found, endpoint = forecast_vlm(family, settings), Endpoint(settings)
     if json:
-        print_json(asdict(found), compact=True)
+        print_json({"host": endpoint.host, "model": settings.model} | asdict(found), compact=True)
         return
-    kind = "hull" if found.every_hull else "exemplar"
+    usage, kind = found.usage, "hull" if settings.every_hull else "exemplar"
     hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, kind)} to be labelled"
-    typer.echo(f"{found.model} at {found.host}: {hulls}")
-    known = f"; {found.known} more have their answer already" if found.known else ""
-    fresh = found.questions - found.known
-    typer.echo(f"would send {pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')}{known}")
-    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
-    typer.echo(f"about {found.input:,} tokens in and {found.output:,} out: {cost}")
+    typer.echo(f"{settings.model} at {endpoint.host}: {hulls}")
+    known = f"; {usage.cached} more have their answer already" if usage.cached else ""
+    typer.echo(f"would send {pluralize(usage.answered, 'question')} with {pluralize(found.pictures, 'picture')}{known}")
+    cost = "price not known" if usage.cost is None else f"about ${usage.cost:.4f}"
+    typer.echo(f"about {usage.input:,} tokens in and {usage.output:,} out: {cost}")
     if found.unreadable:
         typer.echo(f"cannot be read: {join_names(found.unreadable, _MAX_NAMES)}")
     try:
-        Endpoint(settings).key()
+        endpoint.key()
     except EndError as error:
         typer.echo(error.problem)
     typer.echo("nothing was sent")

@@ -28,9 +28,8 @@ class VlmSettings(BaseModel):
 
     key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
     every_hull: whether it is asked about every hull, or about exemplars of which labels are propagated; about: a line
-    on what the meshes are; descriptions: a line on some labels; examples: ids of labelled assets that the model is
-    shown, none for some of those that are labelled; names: whether it is given the names of assets and hulls.
-    Prices are in dollars a million tokens, None where they are not known; max_cost: the most that one run may cost [$].
+    on what the meshes are; descriptions: a line on some labels; names: whether it is given the names of assets and
+    hulls. Prices are in dollars a million tokens, None where not known; max_cost: the most that one run may cost [$].
     room: tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures
     [px]. concurrency: questions under way at once; timeout [s] for one attempt; retries:
     further attempts after a fault that passes. extra: further fields of every request, for what a server wants besides.
@@ -44,7 +43,6 @@ class VlmSettings(BaseModel):
     every_hull: bool = False
     about: str = ""
     descriptions: Mapping[str, str] = {}
-    examples: tuple[str, ...] = ()
     names: bool = False
     input_price: Price | None = None
     output_price: Price | None = None

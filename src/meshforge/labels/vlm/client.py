@@ -14,7 +14,7 @@ from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, Ref
 from meshforge.labels.vlm.question import AnswerCache, Reply, VlmQuestion, probe_question
 
 if TYPE_CHECKING:
-    from openai import APIConnectionError, APIStatusError, OpenAI
+    from openai import APIStatusError, OpenAI
 
 _DOWN = 2  # questions in a row, beyond those under way at once, that get no answer: then nobody is there
 _PROBE_RETRIES = 2  # of the first question at most: a server that is not there is reported soon
@@ -124,21 +124,23 @@ class Client:
         sdk = self._connect().with_options(max_retries=retries)
         import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
 
-        body, self._thread.errors = question.to_body(self.endpoint, refused), 0
+        body, mine = question.to_body(self.endpoint, refused), self._thread
+        mine.sent = mine.silent = 0
         with self._limiter.reserve(question, self._stop) as bound:
             try:
-                raw = sdk.chat.completions.with_raw_response.create(model="", messages=[], extra_body=body)
-                again = raw.retries_taken
-                self._limiter.count(retries=again, perhaps=bound * (again - self._thread.errors))
-                found: Any = raw.parse()
+                found: Any = sdk.chat.completions.create(model="", messages=[], extra_body=body)
+                mine.silent -= 1
             except openai.APIConnectionError as error:
-                self._limiter.count(retries=retries, perhaps=bound * (retries + 1 - self._thread.errors))
-                raise self._explain_silence(error) from error
+                why = self._redact(str(error.__cause__ or "")) or "the connection broke"
+                if isinstance(error, openai.APITimeoutError):
+                    why = f"no answer within {self.endpoint.settings.timeout:g} seconds"
+                raise self._give_up(why) from error
             except openai.APIStatusError as error:
-                self._limiter.count(retries=self._thread.errors - 1)
                 raise self._explain_status(error) from error
             except ValueError as error:
                 found = getattr(error, "doc", "")
+            finally:
+                self._limiter.count(retries=max(mine.sent - 1, 0), perhaps=bound * mine.silent)
             if isinstance(found, str):
                 begin = self._redact(" ".join(found.split()))[:_SHORT]
                 problem = f"the server sent something that is no JSON: {begin or 'nothing'}"
@@ -161,35 +163,32 @@ class Client:
             if self._sdk is None:
                 self._key = self.endpoint.key()
                 key = self._key or "none"  # the SDK wants one even where the server does not
-                # nobody approved where a redirect leads
-                http = DefaultHttpxClient(follow_redirects=False, event_hooks={"response": [self._note_response]})
+                hooks: Any = {"request": [self._note_request], "response": [self._note_response]}
+                http = DefaultHttpxClient(follow_redirects=False, event_hooks=hooks)  # no host but the approved one
                 self._sdk = OpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout, http_client=http)
             return self._sdk
 
+    def _note_request(self, request: Any) -> None:
+        self._thread.sent, self._thread.silent = self._thread.sent + 1, self._thread.silent + 1
+
     def _note_response(self, response: Any) -> None:
-        """Count responses that say that there will be no answer, so that an attempt costs nothing."""
-        self._thread.errors += not response.is_success
+        """Where a response says that there will be no answer, an attempt costs nothing."""
+        self._thread.silent -= not response.is_success
 
     def _give_up(self, problem: str) -> QuestionError:
         """A question that got no answer; EndError where nobody seems to be there."""
         with self._lock:
             self._unanswered += 1
         where = self.endpoint.place
+        if not self._answered:
+            remedy = "Is the server running, and base_url right?"
+            return EndError(f"the server cannot be reached: {problem}", where=where, remedy=remedy)
         if self._unanswered > self.endpoint.settings.concurrency + _DOWN:
             remedy = "Try again later; what was answered is not asked again."
             return EndError(
                 f"several questions in a row got no answer, the last: {problem}", where=where, remedy=remedy
             )
         return QuestionError(f"no answer: {problem}", where=where)
-
-    def _explain_silence(self, error: APIConnectionError) -> QuestionError:
-        why = self._redact(str(error.__cause__ or "")) or "the connection broke"
-        if type(error).__name__ == "APITimeoutError":
-            why = f"no answer within {self.endpoint.settings.timeout:g} seconds"
-        if self._answered:
-            return self._give_up(why)
-        remedy = "Is the server running, and base_url right?"
-        return EndError(f"the server cannot be reached: {why}", where=self.endpoint.place, remedy=remedy)
 
     def _explain_status(self, error: APIStatusError) -> QuestionError:
         status, where, fields = error.status_code, self.endpoint.place, error.body

@@ -2,7 +2,7 @@
 cost."""
 
 from collections.abc import Callable, Collection, Generator, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
 from threading import BoundedSemaphore
@@ -13,10 +13,11 @@ from meshforge.labels.family_comparison import FamilyDescription, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.cost import Usage, estimate_tokens
+from meshforge.labels.vlm.cost import CostLimiter, Usage
 from meshforge.labels.vlm.endpoint import Endpoint, check_approved
 from meshforge.labels.vlm.plan import QuestionBatch, draw_questions, plan_questions
 from meshforge.labels.vlm.prompt import PromptConfig
+from meshforge.labels.vlm.question import Reply
 from meshforge.store import VlmSettings
 from meshforge.symbolic import Label
 
@@ -111,7 +112,7 @@ def _ask(
 
     def ask(one: QuestionBatch) -> tuple[QuestionBatch, VlmAnswers]:
         try:
-            return one, ask_questions(client, config, one.questions, one.wanted)
+            return replace(one, questions=()), ask_questions(client, config, one.questions, one.wanted)
         finally:
             room.release()
             advance()
@@ -120,11 +121,8 @@ def _ask(
     try:
         with closing(questions):
             while not (client.end or stop()) and (one := next(questions, None)):
-                while not room.acquire(timeout=0.1):
-                    stop()
+                room.acquire()
                 asked.append(threads.submit(ask, one))
-        while wait(asked, timeout=0.1).not_done:
-            stop()  # asked all the time, as it says that what is under way is waited for
         return [future.result() for future in asked]
     finally:  # no more is asked; what is under way is kept when its answer comes, yet not waited for
         threads.shutdown(wait=False, cancel_futures=True)
@@ -149,49 +147,37 @@ def _propagate(
 
 @dataclass(slots=True)
 class VlmForecast:
-    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars.
+    """What asking would send. assets, hulls: how many of them are asked about; pictures: that are sent; usage: how
+    many answers there would be, and have been, and about how many tokens and dollars those would take.
 
-    assets, hulls: how many of them are asked about; questions, of which `known` have their answers already; pictures,
-    input, output: what the others send, and tokens that this may come to; cost: their price [$], None where prices are
-    not known. unreadable: assets that cannot be read or drawn.
+    unreadable: assets that cannot be read or drawn.
     """
 
-    host: str
-    model: str
-    every_hull: bool
+    usage: Usage
     assets: int = 0
     hulls: int = 0
-    questions: int = 0
-    known: int = 0
     pictures: int = 0
-    input: int = 0
-    output: int = 0
-    cost: float | None = None
     unreadable: tuple[str, ...] = ()
 
 
 def forecast_vlm(family: LabelFamily, settings: VlmSettings) -> VlmForecast:
-    """Return what `VlmLabeler` would send and what that costs, with nothing sent.
-
-    Questions that have to be asked again come on top of it.
-    """
+    """Return what `VlmLabeler` would send and what that costs, with nothing sent."""
     endpoint, config = Endpoint(settings), PromptConfig(family.vocabulary, settings)
-    found = VlmForecast(endpoint.host, settings.model, settings.every_hull)
-    client = Client(endpoint, family.store.layout.vlm, max_cost=settings.max_cost)
+    client, limiter = Client(endpoint, family.store.layout.vlm, max_cost=settings.max_cost), CostLimiter(endpoint)
     described, plans = plan_questions(family, config)
-    found.unreadable = tuple(described.lost) if described else ()
+    found = VlmForecast(Usage(), unreadable=tuple(described.lost) if described else ())
     with family.stage(len(plans), "drawing") as advance, closing(draw_questions(family, plans, config)) as drawn:
         for one in drawn:
             found.unreadable += (*one.plan,) if one.error else ()  # `VlmLabeler` says then what is wrong
             found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
-            found.questions += len(one.questions)
-            fresh = [asked.question for asked in one.questions if not client.find_answer(asked.question)]
-            found.known += len(one.questions) - len(fresh)
-            found.pictures += sum(len([*question.pictures]) for question in fresh)
-            found.input += sum(map(estimate_tokens, fresh))
-            found.output += sum((question.limit - settings.room) // 2 for question in fresh)
+            for question in (asked.question for asked in one.questions):
+                if client.find_answer(question):
+                    limiter.count(cached=1)
+                else:
+                    found.pictures += len([*question.pictures])
+                    made = (question.limit - settings.room) // 2
+                    limiter.charge(question, Reply("", output_tokens=made, estimated=True))
             advance()
-    if endpoint.is_priced:
-        found.cost = endpoint.price(found.input, found.output)
+    found.usage = limiter.usage
     return found

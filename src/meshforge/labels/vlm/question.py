@@ -6,7 +6,7 @@ import base64
 import hashlib
 import json
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -37,18 +37,6 @@ class Message:
 
     role: Literal["system", "user", "assistant"]
     parts: tuple[Part, ...]
-
-    @staticmethod
-    def system(text: str) -> Message:
-        return Message("system", (text,))
-
-    @staticmethod
-    def user(*parts: Part) -> Message:
-        return Message("user", parts)
-
-    @staticmethod
-    def assistant(text: str) -> Message:
-        return Message("assistant", (text,))
 
     def to_json(self, to_url: Callable[[bytes], str]) -> dict[str, Any]:
         """Return it as a request has it; plain text where there is nothing else, which every server takes."""
@@ -121,14 +109,15 @@ def probe_question() -> VlmQuestion:
 
     schema = make_object_schema(colour={"type": "string", "enum": ["red", "green", "blue"]})
     picture = encode_png(Image.new("RGB", (_SIDE, _SIDE), (220, 30, 30)))
-    return VlmQuestion((Message.user("Which of these colours is this picture: red, green, blue?", picture),), schema)
+    text = "Which of these colours is this picture: red, green, blue?"
+    return VlmQuestion((Message("user", (text, picture)),), schema)
 
 
 @dataclass(frozen=True, slots=True)
 class Reply:
     """An answer. finish: why it ends, `stop` or `length` mostly; estimated: the server did not name its tokens.
 
-    cost: what it cost when it was given [$]; cached: that was earlier, and this time it cost nothing.
+    cost: what it cost when it was given [$].
     """
 
     text: str
@@ -137,7 +126,6 @@ class Reply:
     output_tokens: int = 0
     estimated: bool = False
     cost: float = 0.0
-    cached: bool = False
 
     @property
     def is_cut(self) -> bool:
@@ -158,7 +146,7 @@ class AnswerCache:
         """Return the answer to a question, None where there is none, or none that can be read."""
         try:
             kept = json.loads(self._path(question, endpoint).read_bytes())
-            return replace(_REPLY.validate_python(kept["answered"]), cached=True)
+            return _REPLY.validate_python(kept["answered"])
         except (OSError, ValueError, LookupError, TypeError):
             return None
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.annotation import count_pixels
-from meshforge.rendering.camera import Camera, Up, View, aim_camera, axes_of
+from meshforge.rendering.camera import Camera, Up, View, aim_camera
 from meshforge.rendering.colors import PALE, pick_distinct_colors, rgb
 from meshforge.rendering.picture import points_to_frame
 from meshforge.rendering.raycast import DrawLayer, ViewFrame, cast_rays, up_vector
@@ -80,11 +80,8 @@ class LabelingSubject:
 
     @cached_property
     def points(self) -> Floats:
-        """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
-        points = points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex])
-        along = np.concatenate([axes_of(view, self.up)[:2] for view in VIEW_WORDS]) @ points.T
-        kept: Floats = points[np.unique(np.concatenate([along.argmin(axis=1), along.argmax(axis=1)]))]
-        return kept
+        """The points (n, 3) [m] that a picture of the whole mesh holds."""
+        return points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex])
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """Return the corners (n, 3) [m] of some hulls."""

@@ -34,7 +34,7 @@ def endpoint(address: str, key: str | None = "") -> Endpoint:
 
 
 def question(text: str = "Say a word.", *pictures: bytes, **how: Any) -> VlmQuestion:
-    return VlmQuestion((Message.system("Be brief."), Message.user(text, *pictures)), **how)
+    return VlmQuestion((Message("system", ("Be brief.",)), Message("user", (text, *pictures))), **how)
 
 
 @pytest.fixture
