@@ -63,7 +63,7 @@ def refine(client: Client, opening: tuple[Message, ...], try_answer: Callable[[s
         if one.text is not None and (written.text is None or one.wrong <= least):
             written.text, least = one.text, one.wrong
         written.fits = one.text is not None and not one.wrong
-        cut = ("Your answer was cut off: answer more briefly.\n",) if reply.is_cut else ()
+        cut = ("Your answer was cut off: answer more briefly.\n",) if reply.finish == "length" else ()
         back = Message("assistant", (reply.text[:_QUOTED].strip() or "-",))
         messages = (*messages, back, Message("user", (*cut, *one.said)))
     return written

@@ -361,7 +361,7 @@ def test_what_cannot_be_asked_is_told_before_anything_is_sent(tmp_path: Path) ->
             with pytest.raises(UsageError, match=message):
                 label_with_vlm(project, how.model_copy(update=change))
         project.set_vocabulary(())
-        with pytest.raises(UsageError, match="the vocabulary is empty"):
+        with pytest.raises(ProjectError, match="the vocabulary is empty"):
             label_with_vlm(project, how)
         assert not server.asked
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from meshforge.common import UsageError
 from meshforge.formats import load
-from meshforge.geometry import Box, Pose, convex_hull
+from meshforge.geometry import Box, Pose
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
 from meshforge.rendering.labeling.picture import LabelingCanvas
 from meshforge.rendering.labeling.subject import VIEW_WORDS, Arrangement, LabelingSubject
@@ -99,14 +99,6 @@ def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], dat
 )
 def test_odd_meshes_are_shown_whole(mesh: SymbolicMesh) -> None:
     assert_all_shown(mesh, set(mesh.index), draw_labeling_pictures(mesh, size=SMALL if len(mesh.hulls) < 64 else 1024))
-
-
-def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
-    needle = convex_hull(np.array([[0, 0, 0], [1, 1, 1], [1, 1, 1 + 1e-5], [1, 1 + 1e-5, 1]]))
-    mesh = SymbolicMesh((hull("needle", needle), *mesh_of(box((0.5, 0.5, 0.5), (2, 2, 2))).hulls))
-    thread = mesh_of(box((0, 0, 0), (1e-7, 1e-7, 1)), box((2, 0, 0), (1, 1, 1)))
-    for odd in (mesh, thread):
-        assert_all_shown(odd, set(odd.index), draw_labeling_pictures(odd, size=SMALL), unmet=1)
 
 
 def test_no_hulls_no_pictures() -> None:

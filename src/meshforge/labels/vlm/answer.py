@@ -27,12 +27,12 @@ def read_answer(text: str, asked: Iterable[int], words: Sequence[str]) -> tuple[
     """
     forms = ((word, form) for word in reversed(words) for form in (word, json.dumps(word)[1:-1]))
     known = {_normalize(form): word for word, form in forms} | {word: word for word in words}
-    said = defaultdict[int, dict[str, None]](dict)
+    found = defaultdict[int, dict[str, None]](dict)
     for number, word in _ENTRY.findall(text.rpartition('"hulls"')[2]):  # before it a model may think aloud
-        said[int(number)][known.get(word) or known.get(_normalize(word), word[:_MOST_SHOWN])] = None
+        found[int(number)][known.get(word) or known.get(_normalize(word), word[:_MOST_SHOWN])] = None
     labels, left = dict[int, str](), dict[int, str]()
     for number in asked:
-        match [*said[number]]:
+        match [*found[number]]:
             case [word] if word in words:
                 labels[number] = word
             case []:
@@ -69,15 +69,15 @@ def ask_questions(
     for one in questions:
         try:
             reply = client.ask(one.question)
-            said, why = read_answer(reply.text, one.hulls, words)
-            why = dict.fromkeys(why, "the answer was cut off: raise room in [vlm]") if reply.is_cut else why
+            answer, why = read_answer(reply.text, one.hulls, words)
+            why = dict.fromkeys(why, "the answer was cut off: raise room in [vlm]") if reply.finish == "length" else why
         except QuestionError as error:
             failed[error.sentence] = None
-            said, why = {}, dict.fromkeys(one.hulls, _UNANSWERED)
-        why |= {number: _NOT_KNOWN for number, label in said.items() if label == config.unknown}
+            answer, why = {}, dict.fromkeys(one.hulls, _UNANSWERED)
+        why |= {number: _NOT_KNOWN for number, label in answer.items() if label == config.unknown}
         for number, (asset, hull) in one.hulls.items():
-            if number in said and (wanted is None or (asset, hull) in wanted):
-                labels[asset][hull] = Label(said[number], _CONFIDENCE, "vlm")
+            if number in answer and (wanted is None or (asset, hull) in wanted):
+                labels[asset][hull] = Label(answer[number], _CONFIDENCE, "vlm")
             if number in why and (wanted is None or (asset, hull) in wanted):
                 left[asset][hull] = why[number]
     return VlmAnswers(labels, left, tuple(failed))

@@ -41,13 +41,11 @@ class VlmResult:
 
 class VlmLabeler(Labeler):
     """Asks a vision-language model about exemplars, and propagates their labels to hulls that are like them; or asks
-    about every hull, where the settings say so. Labels of people and files stay. Answers are kept, so that none is paid
-    for twice.
+    about every hull, where the settings say so. Answers are kept, so that none is paid for twice.
 
-    settings: those of the project when None; typed: addresses that the user typed, who thereby approves them: elsewhere
-    but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking; the labels that
-    the model gave by then are proposed, and not propagated. result: how it went, once all is proposed.
-    Raises MeshForgeError where nothing could be asked at all.
+    settings: those of the project when None; typed: addresses that the user typed, and thereby approves. `stop` of the
+    execution ends the asking; what the model said by then is proposed, and not propagated. result: how it went, once
+    all is proposed. Raises MeshForgeError where nothing could be asked at all.
     """
 
     name = "vlm"
@@ -60,7 +58,7 @@ class VlmLabeler(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         settings = self.settings or family.store.settings.vlm
         check_approved(Endpoint(settings), self.typed)
-        labels = [*self._label(family, PromptConfig(family.vocabulary, settings))]
+        labels = [*self._label(family, PromptConfig(family.require_vocabulary(), settings))]
         return LabelProposal(one for one in labels)
 
     def _label(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
@@ -162,7 +160,7 @@ class VlmForecast:
 
 def forecast_vlm(family: LabelFamily, settings: VlmSettings) -> VlmForecast:
     """Return what `VlmLabeler` would send and what that costs, with nothing sent."""
-    endpoint, config = Endpoint(settings), PromptConfig(family.vocabulary, settings)
+    endpoint, config = Endpoint(settings), PromptConfig(family.require_vocabulary(), settings)
     client, limiter = Client(endpoint, family.store.layout.vlm, max_cost=settings.max_cost), CostLimiter(endpoint)
     described, plans = plan_questions(family, config)
     found = VlmForecast(Usage(), unreadable=tuple(described.lost) if described else ())

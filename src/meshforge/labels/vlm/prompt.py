@@ -56,8 +56,6 @@ class PromptConfig:
     examples: tuple[Message, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.vocabulary:
-            raise UsageError("the vocabulary is empty", remedy="Say first what hulls can be: --vocabulary a,b,c.")
         unrecognised = next((label for label in self.settings.descriptions if label not in self.vocabulary), None)
         if unrecognised is not None:
             raise UsageError(f"the label {unrecognised!r} is described, but is not in the vocabulary")

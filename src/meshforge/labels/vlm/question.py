@@ -115,7 +115,7 @@ def probe_question() -> VlmQuestion:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """An answer. finish: why it ends, `stop` or `length` mostly; estimated: the server did not name its tokens.
+    """An answer. finish: why it ends, `length` where its room did; estimated: the server did not name its tokens.
 
     cost: what it cost when it was given [$].
     """
@@ -126,11 +126,6 @@ class Reply:
     output_tokens: int = 0
     estimated: bool = False
     cost: float = 0.0
-
-    @property
-    def is_cut(self) -> bool:
-        """Whether the answer ends where its room ended."""
-        return self.finish == "length"
 
 
 _REPLY = TypeAdapter(Reply)

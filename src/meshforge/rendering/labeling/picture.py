@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from meshforge.geometry import Ints
-from meshforge.rendering.annotation import LabelAnchor, count_pixels, text_width
+from meshforge.rendering.annotation import count_pixels, text_width
 from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import HullColors
 from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
 from meshforge.rendering.paint import paint
-from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
+from meshforge.rendering.placement import TextSize, draw_texts, place_numbers
 from meshforge.rendering.raycast import DrawLayer
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class LabelingCanvas:
         camera = arrangement.camera(view, self.drawing_size)
         marked, items = self._paint(name, arrangement, arrangement.layers, camera)
         items = arrangement.find_hulls(items)
-        numbered = self._write_numbers(marked, arrangement, items, camera)
+        numbered = self._write_numbers(marked, items)
         seen = count_pixels(items, len(hulls)).tolist()
         visible = {hull.name: count for hull, count in zip(hulls, seen, strict=True)}
         shown = frozenset(hulls[k].name for k in numbered)
@@ -94,17 +94,11 @@ class LabelingCanvas:
             for k, number in self.subject.wanted.items()
         }
 
-    def _write_numbers(self, image: Any, arrangement: Arrangement, items: Ints, camera: Camera) -> list[int]:
-        """Write the numbers of hulls, and return which have one: of one alone, be it too thin for rays, too."""
+    def _write_numbers(self, image: Image, items: Ints) -> list[int]:
+        """Write the numbers of hulls, and return which have one."""
         from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-        known: dict[int, LabelAnchor] = {}
-        if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST_PIXELS:
-            (alone,) = arrangement.solid
-            points = camera.to_pixels(arrangement.view_frame.to_unit(self.subject.render_meshes[alone].vertices))
-            column, row = points.mean(axis=0).round().astype(int).tolist()
-            known[alone] = LabelAnchor(column, row, 0.0)
-        places = place_numbers(items, self._number_sizes, known)
+        places = place_numbers(items, self._number_sizes)
         texts = {k: str(number) for k, number in self.subject.wanted.items()}
         draw_texts(ImageDraw.Draw(image), places, texts, self.subject.colors, (0, self.size - self.drawing_size[1]))
         return sorted(place.item for place in places)

@@ -96,8 +96,10 @@ class _PictureSeries:
 
 def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Iterator[tuple[Arrangement, float]]:
     """Yield ways to show hulls that are left, and how much each is liked."""
-    group = _group_near(subject, left)
-    box, whole = Aabb.of_points(subject.points_of(group)), Aabb.of_points(subject.points)
+    whole, (low, high) = Aabb.of_points(subject.points), (corner[list(left)] for corner in subject.mesh.corners)
+    gaps = np.maximum(low - high[0], low[0] - high).max(axis=1)  # to the first hull that is left
+    group = tuple(k for k, gap in zip(left, gaps, strict=True) if gap < _NEAR * whole.diagonal)
+    box = Aabb.of_points(subject.points_of(group))
     room = _ROOM * box.diagonal / 2
     seen = Aabb(np.maximum(box.min - room, whole.min), np.minimum(box.max + room, whole.max))
     is_close = 0 < seen.diagonal < _CLOSE * whole.diagonal
@@ -106,13 +108,6 @@ def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Itera
         yield Arrangement(subject, group, seen.corners, group), _FEW
     if not is_close or len(group) < len(left):
         yield Arrangement(subject, tuple(left), subject.points), _FEW
-
-
-def _group_near(subject: LabelingSubject, left: Sequence[int]) -> tuple[int, ...]:
-    """The first hull that is left, and those that are near it."""
-    low, high = (corner[list(left)] for corner in subject.mesh.corners)
-    gaps = np.maximum(low - high[0], low[0] - high).max(axis=1)
-    return tuple(k for k, gap in zip(left, gaps, strict=True) if gap < _NEAR * subject.diagonal)
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from meshforge.common import join_names
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.annotation import count_pixels
 from meshforge.rendering.camera import Camera, Up, View, aim_camera
@@ -87,10 +88,6 @@ class LabelingSubject:
         """Return the corners (n, 3) [m] of some hulls."""
         return np.concatenate([self.render_meshes[k].vertices for k in hulls])
 
-    @cached_property
-    def diagonal(self) -> float:
-        return Aabb.of_points(self.points).diagonal
-
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
@@ -118,9 +115,8 @@ class Arrangement:
         return f"{words}, close up of {self._list_hulls(self.close)}" if self.close else words
 
     def _list_hulls(self, hulls: tuple[int, ...]) -> str:
-        texts = [str(self.subject.wanted.get(k, k)) for k in hulls[:_HULLS_NAMED]]
-        more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
-        return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"
+        texts = [str(self.subject.wanted.get(k, k)) for k in hulls]
+        return f"{'hulls' if len(hulls) > 1 else 'hull'} {join_names(texts, _HULLS_NAMED)}"
 
     @cached_property
     def view_frame(self) -> ViewFrame:
