@@ -69,7 +69,8 @@ class Agent:
         frame = self.task.program
         header = str(replace(frame, rules=()))
         begun = _OPENING.format(header=header.strip(), templates=prompts.templates(self.task.templates))
-        return instructions(), Message.user(begun, *prompts.describe_demonstrations(self.shown, frame), _CLOSING)
+        shown = prompts.describe_demonstrations(self.shown, frame)
+        return instructions(), Message("user", (begun, *shown, _CLOSING))
 
     def try_answer(self, answer: str) -> Trial:
         """An answer on the demonstrations."""
@@ -119,7 +120,7 @@ def instructions() -> Message:
     """What the task is, with the language as the project itself documents it."""
     about = (_ROOT / "docs" / "language.md").read_text("utf-8").partition(_END)[0]
     grammar = Path(language.__file__).with_name("grammar.lark").read_text("utf-8")
-    return Message.system(_TASK.format(language=about.strip(), grammar=grammar.strip()))
+    return Message("system", (_TASK.format(language=about.strip(), grammar=grammar.strip()),))
 
 
 def _astray(program: Program, result: RunResult, one: Replay) -> list[str]:

@@ -88,7 +88,8 @@ class BlenderModel:
             seconds=self.blender.limits.seconds,
             actions=actions(),
         )
-        return Message.system(told), Message.user(begun, *prompts.describe_demonstrations(self.shown, frame), _CLOSING)
+        shown = prompts.describe_demonstrations(self.shown, frame)
+        return Message("system", (told,)), Message("user", (begun, *shown, _CLOSING))
 
     def try_answer(self, answer: str) -> Trial:
         """An answer on the demonstrations."""

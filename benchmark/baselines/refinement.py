@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import TokenCount
 from meshforge.labels.vlm.question import Message, Part, Reply, VlmQuestion
 
 ROUNDS = 5
@@ -64,9 +63,9 @@ def refine(client: Client, opening: tuple[Message, ...], try_answer: Callable[[s
         if one.text is not None and (written.text is None or one.wrong <= least):
             written.text, least = one.text, one.wrong
         written.fits = one.text is not None and not one.wrong
-        cut = ("Your answer was cut off: answer more briefly.\n",) if reply.is_cut else ()
-        back = Message.assistant(reply.text[:_QUOTED].strip() or "-")
-        messages = (*messages, back, Message.user(*cut, *one.said))
+        cut = ("Your answer was cut off: answer more briefly.\n",) if reply.finish == "length" else ()
+        back = Message("assistant", (reply.text[:_QUOTED].strip() or "-",))
+        messages = (*messages, back, Message("user", (*cut, *one.said)))
     return written
 
 
@@ -77,7 +76,6 @@ def find_code(text: str) -> str:
 
 
 def _count(written: Answer, reply: Reply) -> None:
-    usage = reply.usage or TokenCount()
     written.rounds += 1
-    written.input, written.output = written.input + usage.input, written.output + usage.output
+    written.input, written.output = written.input + reply.input_tokens, written.output + reply.output_tokens
     written.cost += reply.cost

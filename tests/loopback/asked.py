@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-_QUESTION = re.compile(r"(?:pieces belong to|for these numbers only):? (.*?)[?.]\s*$", re.DOTALL)
+_QUESTION = re.compile(r"pieces belong to: (.*?)[?]\s*$", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Asked:
 
     @property
     def numbers(self) -> tuple[int, ...]:
-        """The numbers of the hulls that the labeller asks about, or asks about again."""
+        """The numbers of the hulls that the labeller asks about."""
         last = next(part for part in reversed(self.parts) if isinstance(part, str))
         found = _QUESTION.search(last)
         return tuple(int(n) for n in re.findall(r"(?:^|, )(\d+)", found[1])) if found else ()
@@ -83,8 +83,3 @@ class Asked:
             elif row := re.match(r"(\d+) \('(.*)'\): size", line):
                 found[int(row[1])] = asset, row[2]
         return found
-
-    @property
-    def is_again(self) -> bool:
-        """Whether it asks once more for what an answer left open."""
-        return "for these numbers only" in self.text

@@ -23,8 +23,7 @@ _PICTURE = 800  # tokens
 
 def labels_as_json(labels: Mapping[int, str]) -> str:
     """An answer of the form that is asked for."""
-    rows = [{"number": number, "label": label} for number, label in labels.items()]
-    return json.dumps({"object": "a thing", "parts": sorted({*labels.values()}), "hulls": rows})
+    return json.dumps({"object": "a thing", "parts": sorted({*labels.values()}), "hulls": labels})
 
 
 @dataclass
@@ -51,11 +50,9 @@ class Server:
     """Each request, the status it was answered with (0: not at all), and whether with a whole answer."""
     usage: Counter[str] = field(default_factory=Counter)
     """Tokens of all answers that were sent."""
-    most_at_once: int = 0
     closing: threading.Event = field(default_factory=threading.Event)
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _seen: Counter[str] = field(default_factory=Counter)
-    _busy: int = 0
 
     @property
     def answered(self) -> list[Asked]:
@@ -68,13 +65,7 @@ class Server:
         with self._lock:
             asked = Asked(body, key, self._seen[raw])
             self._seen[raw] += 1
-            self._busy += 1
-            self.most_at_once = max(self.most_at_once, self._busy)
-        try:
-            response, whole = self._response(asked)
-        finally:
-            with self._lock:
-                self._busy -= 1
+        response, whole = self._response(asked)
         with self._lock:
             self.asked.append((asked, response[0] if response else 0, whole))
         return response

@@ -20,6 +20,7 @@ from meshforge.labels import (
     AllLabeler,
     FileLabeler,
     Labeler,
+    LabelFamily,
     LabelFileOptions,
     LabelResult,
     LikeLabeler,
@@ -41,7 +42,6 @@ _ONLY_FOR = {
     "model": ("vlm",),
     "base_url": ("vlm",),
     "every_hull": ("vlm",),
-    "mode": ("vlm",),
     "max_cost": ("vlm",),
     "like": ("like",),
     "words": ("like",),
@@ -108,7 +108,6 @@ class LabelArguments:
             "--every-hull", help="Let --with vlm ask about every hull, not a few whose labels are propagated."
         ),
     ] = None
-    mode: Annotated[str | None, typer.Option("--mode", hidden=True)] = None
     max_cost: Annotated[
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
@@ -167,7 +166,7 @@ class LabelArguments:
         return labeler
 
     def _read_vlm_settings(self, project: Project) -> VlmSettings:
-        names = ("model", "base_url", "every_hull", "mode", "max_cost")
+        names = ("model", "base_url", "every_hull", "max_cost")
         given = {name: value for name in names if (value := getattr(self, name)) is not None}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
@@ -212,7 +211,8 @@ def label(given: LabelArguments) -> None:
         return
     labeler, execution = given.to_labeler(project), given.execution.to_options()
     if given.dry_run and isinstance(labeler, VlmLabeler):
-        print_forecast(project, labeler, words, execution, json=given.json)
+        family = LabelFamily(project, project.vocabulary if words is None else tuple(words), execution, progress)
+        print_forecast(family, labeler.settings or project.settings.vlm, json=given.json)
     elif given.dry_run:
         found = _run(project, labeler, json=given.json, vocabulary=words, dry_run=True, execution=execution)
         print_proposals(found.proposals, json=given.json)

@@ -1,7 +1,6 @@
 """`meshforge label --with vlm`: what would be sent, or what a model said and what it cost."""
 
 import sys
-from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, replace
 
 import typer
@@ -10,9 +9,20 @@ from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
-from meshforge.common import join_names, pluralize
-from meshforge.labels import Endpoint, Usage, VlmLabeler, approve_host, check_approved, describe_sending, is_approved
+from meshforge.common import UsageError, join_names, pluralize
+from meshforge.labels import (
+    EndError,
+    Endpoint,
+    LabelFamily,
+    Usage,
+    VlmLabeler,
+    approve_host,
+    check_approved,
+    describe_sending,
+    forecast_vlm,
+)
 from meshforge.project import Project
+from meshforge.store import VlmSettings
 
 _MAX_NAMES = 8  # names in a row
 
@@ -25,35 +35,21 @@ def label_with_vlm(
     The first Ctrl-C ends the asking, and what is under way is waited for.
     """
     endpoint = Endpoint(labeler.settings or project.settings.vlm)
-    _ask_approval(endpoint, labeler.typed)
-    check_approved(endpoint, labeler.typed)
-    remark(describe_sending(endpoint))
-    with catch_interrupt() as stop:
-        announced = _announce_stop(stop, "stopping: waiting for the answers that are under way")
-        project.label(labeler, execution=replace(execution, stop=announced), stage=progress, report=printer.print)
+    sending = describe_sending(endpoint)
+    try:
+        check_approved(endpoint, labeler.typed)
+    except UsageError:  # a person at the terminal is asked
+        asked = sys.stdin.isatty() and sys.stderr.isatty()
+        if not (asked and typer.confirm(f"For the first time, {sending}. Is that right?", err=True)):
+            raise
+        approve_host(endpoint.host)
+    remark(sending)
+    with catch_interrupt("stopping: waiting for the answers that are under way\n") as stop:
+        execution = replace(execution, stop=stop)
+        project.label(labeler, execution=execution, stage=progress, report=printer.print)
     printer.failed |= bool(labeler.result.ended)
     printer.summarize()
     _print_end(project, labeler, json=printer.json)
-
-
-def _ask_approval(endpoint: Endpoint, typed: Collection[str]) -> None:
-    """Ask a person at the terminal for a host that is not approved; where nobody can be asked, it stays that."""
-    if endpoint.settings.base_url in typed or is_approved(endpoint) or not (sys.stdin.isatty() and sys.stderr.isatty()):
-        return
-    if typer.confirm(f"For the first time, {describe_sending(endpoint)}. Is that right?", err=True):
-        approve_host(endpoint.host)
-
-
-def _announce_stop(stop: Callable[[], bool], text: str) -> Callable[[], bool]:
-    """The same, which says so when a stop is wanted for the first time; it is asked all the time."""
-    texts = [text]
-
-    def wrapped() -> bool:
-        if stop() and texts:
-            remark(texts.pop())
-        return stop()
-
-    return wrapped
 
 
 def _print_end(project: Project, labeler: VlmLabeler, *, json: bool) -> None:
@@ -77,42 +73,32 @@ def _describe_usage(usage: Usage) -> str:
     parts = [f"{pluralize(usage.answered, 'answer')}"]
     parts += [f"{usage.cached} more from earlier"] if usage.cached else []
     parts += [f"{pluralize(usage.retries, 'attempt')} repeated"] if usage.retries else []
-    tokens = f"{usage.usage.input:,} tokens in, {usage.usage.output:,} out"
-    tokens += " (estimated, since the server does not say)" if usage.usage.estimated else ""
+    tokens = f"{usage.input:,} tokens in, {usage.output:,} out"
+    tokens += " (estimated, since the server does not say)" if usage.estimated else ""
     cost = "cost not known: write input_price and output_price into [vlm]"
     if usage.cost is not None:
-        lost = f", and up to ${usage.perhaps:.4f} should {pluralize(usage.lost, 'lost attempt')} be charged for"
-        cost = f"${usage.cost:.4f}{lost if usage.lost else ''}"
+        lost = f", and up to ${usage.perhaps:.4f} should lost attempts be charged for" if usage.perhaps else ""
+        cost = f"${usage.cost:.4f}{lost}"
     return f"{', '.join(parts)}; {tokens}; {cost}"
 
 
-def print_forecast(
-    project: Project,
-    labeler: VlmLabeler,
-    vocabulary: Sequence[str] | None,
-    execution: batch.ExecutionOptions,
-    *,
-    json: bool,
-) -> None:
-    """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
-    settings = labeler.settings
-    with progress(len(project.assets()), "drawing") as advance, catch_interrupt() as stop:
-        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, execution=execution)
-        if stop():
-            raise KeyboardInterrupt
+def print_forecast(family: LabelFamily, settings: VlmSettings, *, json: bool) -> None:
+    """Print what would be sent and what it may cost; nothing is sent."""
+    found, endpoint = forecast_vlm(family, settings), Endpoint(settings)
     if json:
-        print_json(asdict(found), compact=True)
+        print_json({"host": endpoint.host, "model": settings.model} | asdict(found), compact=True)
         return
-    kind = "hull" if found.every_hull else "exemplar"
+    usage, kind = found.usage, "hull" if settings.every_hull else "exemplar"
     hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, kind)} to be labelled"
-    typer.echo(f"{found.model} at {found.host}: {hulls}")
-    known = f"; {found.known} more have their answer already" if found.known else ""
-    fresh = found.questions - found.known
-    typer.echo(f"would send {pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')}{known}")
-    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
-    typer.echo(f"about {found.input:,} tokens in and {found.output:,} out: {cost}")
+    typer.echo(f"{settings.model} at {endpoint.host}: {hulls}")
+    known = f"; {usage.cached} more have their answer already" if usage.cached else ""
+    typer.echo(f"would send {pluralize(usage.answered, 'question')} with {pluralize(found.pictures, 'picture')}{known}")
+    cost = "price not known" if usage.cost is None else f"about ${usage.cost:.4f}"
+    typer.echo(f"about {usage.input:,} tokens in and {usage.output:,} out: {cost}")
     if found.unreadable:
         typer.echo(f"cannot be read: {join_names(found.unreadable, _MAX_NAMES)}")
-    if not found.key_is_set:
-        typer.echo(f"the key is not there: the environment variable {found.key} is not set")
+    try:
+        endpoint.key()
+    except EndError as error:
+        typer.echo(error.problem)
     typer.echo("nothing was sent")

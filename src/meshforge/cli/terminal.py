@@ -1,6 +1,7 @@
 """The terminal: JSON to stdout, remarks to stderr, nothing that would control it, and Ctrl-C."""
 
 import json
+import os
 import signal
 import sys
 import threading
@@ -69,8 +70,9 @@ def remark(text: str) -> None:
 
 
 @contextmanager
-def catch_interrupt() -> Iterator[Callable[[], bool]]:
-    """Let the first Ctrl-C within the block only make the given function say that it is time to stop."""
+def catch_interrupt(notice: str = "") -> Iterator[Callable[[], bool]]:
+    """Let the first Ctrl-C within the block only make the given function say that it is time to stop; notice: what is
+    then written on stderr."""
     stopped = False
 
     def note(number: int, frame: FrameType | None) -> None:
@@ -78,6 +80,7 @@ def catch_interrupt() -> Iterator[Callable[[], bool]]:
         if stopped:
             signal.default_int_handler(number, frame)
         stopped = True
+        os.write(2, notice.encode())  # as `print` may have been interrupted
 
     if threading.current_thread() is not threading.main_thread():  # where signals cannot be handled
         yield lambda: stopped

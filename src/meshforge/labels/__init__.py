@@ -18,7 +18,7 @@ __getattr__, __all__ = export_lazily(
         "registry": "LABELERS AssetLabeler make_labeler",
         "spans": "HullSpan SpanReport",
         "summary": "NameContradiction SourceTally Tally label_command tally_labels",
-        "vlm.endpoint": "Endpoint approve_host check_approved describe_sending is_approved",
+        "vlm.endpoint": "EndError Endpoint approve_host check_approved describe_sending",
         "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult forecast_vlm",
         "vlm.cost": "Usage",
     },

@@ -38,11 +38,11 @@ from meshforge.labels.summary import SourceTally as SourceTally
 from meshforge.labels.summary import Tally as Tally
 from meshforge.labels.summary import label_command as label_command
 from meshforge.labels.summary import tally_labels as tally_labels
+from meshforge.labels.vlm.endpoint import EndError as EndError
 from meshforge.labels.vlm.endpoint import Endpoint as Endpoint
 from meshforge.labels.vlm.endpoint import approve_host as approve_host
 from meshforge.labels.vlm.endpoint import check_approved as check_approved
 from meshforge.labels.vlm.endpoint import describe_sending as describe_sending
-from meshforge.labels.vlm.endpoint import is_approved as is_approved
 from meshforge.labels.vlm.label_by_vlm import VlmForecast as VlmForecast
 from meshforge.labels.vlm.label_by_vlm import VlmLabeler as VlmLabeler
 from meshforge.labels.vlm.label_by_vlm import VlmResult as VlmResult

@@ -72,7 +72,6 @@ class Project(Store):
     set_labels = labels.set_labels
     set_labels_of = labels.set_labels_of
     label = labels.label_project
-    forecast_vlm = labels.forecast_vlm
     tally_labels = labels.tally_labels
     rename_label = rename.rename_label
 

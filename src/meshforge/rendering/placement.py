@@ -40,15 +40,13 @@ class NumberPlace:
         return (left + right) / 2, (top + bottom) / 2
 
 
-def place_numbers(
-    items: Ints, sizes: Mapping[int, Mapping[int, TextSize]], known: Mapping[int, LabelAnchor] | None = None
-) -> list[NumberPlace]:
+def place_numbers(items: Ints, sizes: Mapping[int, Mapping[int, TextSize]]) -> list[NumberPlace]:
     """Return places for the numbers of hulls as far as they are seen and fit; none covers another.
 
     items: (h, w), what each pixel shows; sizes: of each number to be placed, the room it takes for each height of
-    type [px] that it may be written in, the one liked best first; known: where hulls are that hardly any pixel shows.
+    type [px] that it may be written in, the one liked best first.
     """
-    found = {**find_label_anchors(items, sizes, LEAST_PIXELS), **(known or {})}
+    found = find_label_anchors(items, sizes, LEAST_PIXELS)
     places: list[NumberPlace] = []
     for item, middle in found.items():
         place = _place_inside(items, item, middle, sizes[item], places)

@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from meshforge import batch, formats, language
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
@@ -28,10 +28,8 @@ class VlmSettings(BaseModel):
 
     key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
     every_hull: whether it is asked about every hull, or about exemplars of which labels are propagated; about: a line
-    on what the meshes are; descriptions: a line on some labels; examples: ids of labelled assets that the model is
-    shown, none for some of those that are labelled; names: whether it is given the names of assets and hulls; repeats:
-    how often each question is asked. Prices are in dollars a million tokens, None where they are not known;
-    max_cost: the most that one run may cost [$].
+    on what the meshes are; descriptions: a line on some labels; names: whether it is given the names of assets and
+    hulls. Prices are in dollars a million tokens, None where not known; max_cost: the most that one run may cost [$].
     room: tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures
     [px]. concurrency: questions under way at once; timeout [s] for one attempt; retries:
     further attempts after a fault that passes. extra: further fields of every request, for what a server wants besides.
@@ -45,9 +43,7 @@ class VlmSettings(BaseModel):
     every_hull: bool = False
     about: str = ""
     descriptions: Mapping[str, str] = {}
-    examples: tuple[str, ...] = ()
     names: bool = False
-    repeats: Annotated[int, Field(ge=1, le=20)] = 1
     input_price: Price | None = None
     output_price: Price | None = None
     max_cost: Price | None = None
@@ -57,13 +53,6 @@ class VlmSettings(BaseModel):
     timeout: Seconds = 120.0
     retries: Annotated[int, Field(ge=0, le=20)] = 5
     extra: Mapping[str, Any] = {}
-
-    @model_validator(mode="before")
-    @classmethod
-    def _refuse_mode(cls, given: Any) -> Any:
-        if isinstance(given, dict) and "mode" in given:
-            raise ValueError("there is no mode now: every_hull = true (--every-hull) asks about all, else exemplars")
-        return given
 
 
 class Thresholds(BaseModel):

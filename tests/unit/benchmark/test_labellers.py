@@ -134,11 +134,11 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
     row, other = found["loopback-vl"], again["loopback-vl"]
     assert {**row, "s a mesh": 0, "$ a mesh": 0} == {**other, "s a mesh": 0, "$ a mesh": 0}
     assert row["$ a mesh"] == pytest.approx(other["$ a mesh"])  # added up as answers come
-    assert asked == 2 * 2 * REPEATS  # each mesh once, and once again for the hull that has no label
+    assert asked == 2 * REPEATS
     hulls = sum(map(len, truth(family)))
     assert row["right"] == pytest.approx(1 - 2 / hulls)
     assert row["no label, %"] == pytest.approx(200 / hulls)
     assert (row["repeats"], row["all repeats agree, %"], row["Friedman, p"]) == (REPEATS, 100, "no difference")
     cost = (PRICES[0] * spent["input"] + PRICES[1] * spent["output"]) / 1e6
-    assert row["$ a mesh"] == pytest.approx(cost / REPEATS / 2, rel=0.1)  # but for probes
+    assert row["$ a mesh"] == pytest.approx(cost / REPEATS / 2, rel=0.2)  # but for probes
     assert any("loopback-vl, asked about all hulls" in note for note in found["notes"])

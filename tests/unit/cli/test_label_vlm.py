@@ -24,10 +24,8 @@ _RUN = "from meshforge.cli import main; main()"
 
 def answer(asked: Asked) -> str:
     """Right, but of the third table, of which the model knows nothing of one hull and calls another by a wrong word."""
-    said = json.loads(right(asked))["hulls"]
-    if asked.asset == "t002.obj":
-        said = [row | {"label": {0: "unknown", 1: "wheel"}.get(row["number"], row["label"])} for row in said]
-    return labels_as_json({row["number"]: row["label"] for row in said})
+    said = {int(number): label for number, label in json.loads(right(asked))["hulls"].items()}
+    return labels_as_json(said | ({0: "unknown", 1: "wheel"} if asked.asset == "t002.obj" else {}))
 
 
 @pytest.fixture
@@ -59,20 +57,20 @@ def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, serve
     ]
     price = (server.usage["input"] + 4 * server.usage["output"]) / 1e6
     assert lines[-2] == (
-        f"5 answers; {server.usage['input']:,} tokens in, {server.usage['output']:,} out; ${price:.4f}"
+        f"4 answers; {server.usage['input']:,} tokens in, {server.usage['output']:,} out; ${price:.4f}"
     )
     assert lines[-1].startswith("what was sent and what came back: ")
-    assert len([*(Path(lines[-1].partition(": ")[2]) / "answers").iterdir()]) == 4
+    assert len([*(Path(lines[-1].partition(": ")[2]) / "answers").iterdir()]) == 3
     again = run("label", "p", "--with", "vlm")
     assert "t000.obj: 0 labels taken, 6 there already\n" in again.out
-    assert "0 answers, 4 more from earlier; 0 tokens in, 0 out; $0.0000\n" in again.out
+    assert "0 answers, 3 more from earlier; 0 tokens in, 0 out; $0.0000\n" in again.out
 
 
 @pytest.mark.slow
 def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server) -> None:
     lines = run("label", "p", "--with", "vlm", "--json").lines
     assert lines[2]["open"] == {"top": "the model does not know", "left_low": "the model said wheel, which is no label"}
-    assert lines[-1]["bill"]["answered"] == 5
+    assert lines[-1]["bill"]["answered"] == 4
     assert (lines[-1]["ended"], lines[-1]["unasked"], lines[-1]["blind"]) == (None, [], False)
 
 
@@ -91,7 +89,7 @@ def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: S
     run("label", "p", "--with", "vlm", "--dry-run", "--vocabulary", "top,foot")
     assert Project.open(tmp_path / "p").vocabulary == ("top", "leg", "misc")
     found = json.loads(run("label", "p", "--with", "vlm", "--dry-run", "--json", "--model", "other").out)
-    assert (found["model"], found["every_hull"], found["key_is_set"]) == ("other", True, True)
+    assert (found["model"], found["hulls"]) == ("other", 18)
 
 
 @pytest.mark.slow
@@ -102,7 +100,7 @@ def test_a_dry_run_says_that_the_key_or_the_prices_are_not_there(
     settings = tmp_path / "p/meshforge.toml"
     settings.write_text(settings.read_text().replace("input_price = 1\n", ""))
     told = run("label", "p", "--with", "vlm", "--dry-run").out
-    assert f"the key is not there: the environment variable {VARIABLE} is not set\n" in told
+    assert f"the environment variable {VARIABLE}, which holds the key, is not set\n" in told
     assert "out: price not known\n" in told
 
 
@@ -124,7 +122,6 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
         (("--labels", "x"), "--labels is for --with file"),
-        (("--mode", "exact"), "there is no mode now: every_hull = true (--every-hull) asks about all"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

@@ -8,25 +8,31 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given
-from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.labels.vlm import prompt
 from meshforge.labels.vlm.prompt import HullQuestion, MeshHulls, PromptConfig, build_questions
 from meshforge.project import Project
-from meshforge.symbolic import GIVEN_SOURCES, Label
-from tests.examples import examples
-from tests.loopback import FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
+from meshforge.symbolic import Label
+from tests.loopback import KEY, Asked, Server, labels_as_json, serving, sometimes, status
 from tests.unit.batch.families import label_of
-from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, label_with_vlm, right, settings, truth
+from tests.unit.labels.vlm_family import (
+    VARIABLE,
+    WORDS,
+    family,
+    forecast,
+    hulls,
+    label_with_vlm,
+    right,
+    settings,
+    truth,
+)
 
 MANY = 200
 
@@ -69,8 +75,8 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
         project = family(tmp_path / name, 5)
         (project.path("t003.obj")).write_text("f 1 2 3\n")
         with serving(right) as server:
-            seen = project.forecast_vlm(settings(server), execution=spread)
-            assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
+            seen = forecast(project, settings(server), spread)
+            assert (seen.assets, seen.usage.answered, seen.unreadable) == (4, 4, ("t003.obj",))
             found = label_with_vlm(project, settings(server), execution=spread)
             asked.append(sorted(one.raw for one, _, _ in server.asked))
         assert [report.taken for report in found.outcomes] == [6, 6, 6, 0, 6]
@@ -79,19 +85,10 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
     assert asked[0] == asked[1]
 
 
-@pytest.mark.slow
-def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
-    project = family(tmp_path, 3)
-    with serving(right) as server:
-        found = label_with_vlm(project, settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
-    assert not server.asked
-    assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.outcomes)
-
-
 def lying(asked: Asked) -> str:
     """A model that knows it all, but says for one question in five what is of no use, no vocabulary, or no hull."""
     mood = random.Random(asked.raw).random() * 20
-    if asked.is_again or mood > 4:
+    if mood > 4:
         return right(asked)
     if mood > 3:
         return "As a language model I would rather not."
@@ -99,7 +96,7 @@ def lying(asked: Asked) -> str:
         return labels_as_json({number: "wheel" for number in asked.numbers if number < 2})
     if mood > 1:
         return labels_as_json({number + 100: "leg" for number in asked.numbers})
-    return right(asked)[:-1] + ', "hulls": [{"number": 0, "label": "leg"}, {"number": 0, "label": "top"}]}'
+    return right(asked)[:-1] + ', "hulls": {"0": "leg", "0": "top"}}'
 
 
 @pytest.mark.long
@@ -127,13 +124,13 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
             assert here.items() <= truth(report.asset).items()
             assert bool(report.problems) == (report.asset in hopeless)
         wholly = [asset for asset in project.assets() if labels(project, asset) == truth(asset)]
-        assert len(wholly) >= MANY - 10
+        assert len(wholly) >= 0.75 * MANY
         assert all(set(found.open[asset].values()) == {"the question got no answer"} for asset in hopeless)
         faults = sum(not whole for asked, _, whole in server.asked if asked.asset not in hopeless)
         assert faults > 0.1 * MANY
         assert max(Counter(asked.raw for asked in server.answered).values()) == 1  # nothing asked twice
         assert found.usage.cost == pytest.approx(charged(server))
-        assert (found.usage.usage.input, found.usage.usage.output) == (server.usage["input"], server.usage["output"])
+        assert (found.usage.input, found.usage.output) == (server.usage["input"], server.usage["output"])
         broken = sum(not whole for _, _, whole in server.asked)  # slow ones may be under way there still
         assert found.usage.retries + len(hopeless) >= broken
 
@@ -177,6 +174,7 @@ def test_exemplars_are_asked_about_and_the_rest_is_propagated(tmp_path: Path) ->
 
 
 @pytest.mark.usefixtures("many_clusters")
+@pytest.mark.slow
 def test_of_exemplars_what_is_unknown_stays_open_and_an_early_end_propagates_nothing(tmp_path: Path) -> None:
     project = family(tmp_path, 12)
 
@@ -231,18 +229,17 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
     project = Project.open(project.folder)
     with serving(right) as server:
         how = settings(server)
-        told = project.forecast_vlm(how)
+        told = forecast(project, how)
         assert not server.asked
         assert not (project.layout.vlm).exists()
         found = label_with_vlm(project, how)
-        assert told.questions == len(server.answered)
+        assert told.usage.answered == len(server.answered)
         assert told.pictures == sum(len(asked.pictures) for asked in server.answered)
-        assert (told.assets, told.hulls, told.known, told.unreadable) == (3, 18, 0, ("broken.obj",))
-        assert told.cost == pytest.approx((told.input + 4 * told.output) / 1e6)
-        assert told.output / 3 < server.usage["output"] < told.output * 3
-        assert (told.host, told.model, told.every_hull) == (server.base_url[7:-3], server.model, True)
-        after = project.forecast_vlm(how)
-        assert (after.known, after.pictures, after.input, after.cost) == (3, 0, 0, 0.0)
+        assert (told.assets, told.hulls, told.usage.cached, told.unreadable) == (3, 18, 0, ("broken.obj",))
+        assert told.usage.cost == pytest.approx((told.usage.input + 4 * told.usage.output) / 1e6)
+        assert told.usage.output / 4 < server.usage["output"] < told.usage.output * 3
+        after = forecast(project, how)
+        assert (after.usage.cached, after.pictures, after.usage.input, after.usage.cost) == (3, 0, 0, 0.0)
     (broken,) = [report for report in found.outcomes if report.problems]
     assert broken.asset == "broken.obj"
 
@@ -314,44 +311,6 @@ def test_a_killed_run_loses_nothing_that_was_paid_for_but_what_was_under_way(tmp
     assert all(labels(project, asset) == truth(asset) for asset in project.assets())
 
 
-Act = tuple[str, str, str]
-ACTS = st.lists(
-    st.tuples(
-        st.sampled_from(["user", "file", "propagated", "ask", "ask"]),
-        st.sampled_from(hulls("t001.obj")),
-        st.sampled_from(WORDS),
-    ),
-    min_size=1,
-    max_size=8,
-)
-
-
-@pytest.mark.slow
-@examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(acts=ACTS, seed=st.integers(0, 1000))
-def test_no_label_of_a_person_or_a_file_is_ever_changed(
-    tmp_path_factory: pytest.TempPathFactory, acts: list[Act], seed: int
-) -> None:
-    project = family(tmp_path_factory.mktemp("family"), 2)
-    said: dict[str, Label] = {}
-    with serving(lying, fault=sometimes(0.5, FAULTS[:4], seed)) as server:
-        for who, hull, word in acts:
-            match who:
-                case "ask":
-                    with suppress(MeshForgeError):  # where not even the first question gets through
-                        label_with_vlm(project, settings(server, retries=1))
-                case "propagated" if hull not in said:
-                    project.set_labels("t001.obj", {hull: word}, source="propagated", confidence=0.5)
-                case "user":
-                    said[hull] = Label(word)
-                    project.set_labels("t001.obj", {hull: word})
-                case "file" if hull not in said:
-                    said[hull] = Label(word, 0.2, "file")
-                    project.set_labels("t001.obj", {hull: word}, source="file", confidence=0.2)
-            now = project.labels("t001.obj").labels
-            assert {name: label for name, label in now.items() if label.source in GIVEN_SOURCES} == said
-
-
 def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     project = family(tmp_path, 2)
     project.set_labels("t000.obj", truth("t000.obj"))
@@ -360,7 +319,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
         path.write_text(
             f'{path.read_text()}\n[vlm]\nbase_url = "{server.base_url}"\nmodel = "{server.model}"\n'
             f'key_env = "{VARIABLE}"\nevery_hull = true\nsize = 256\nnames = true\n'
-            'examples = ["t000.obj"]\nabout = "small tables"\n'
+            'about = "small tables"\n'
             '[vlm.descriptions]\nmisc = "what fell off"\n[vlm.extra]\ntop_k = 1\n'
         )
         found = label_with_vlm(project)
@@ -368,7 +327,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
         assert "- misc: what fell off" in asked.text
         assert "The objects are: small tables." in asked.text
         assert asked.body["top_k"] == 1
-        assert json.loads(asked.body["messages"][2]["content"])["hulls"][-1] == {"number": 5, "label": "top"}
+        assert json.loads(asked.body["messages"][2]["content"])["hulls"]["5"] == "top"
         assert found.usage.cost is None
     project.set_vocabulary([*WORDS, "handle"])  # a change of another setting leaves the table alone
     assert project.settings.vlm.descriptions == {"misc": "what fell off"}
@@ -378,9 +337,6 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('modell = "x"', "there is no such field as vlm.modell"),
-        ('mode = "cheap"', "the field vlm: there is no mode now: every_hull = true"),
-        ("concurrency = 0", "the field vlm.concurrency"),
-        ("input_price = -1", "the field vlm.input_price"),
         ("size = 3", "the field vlm.size"),
     ],
 )
@@ -400,15 +356,12 @@ def test_what_cannot_be_asked_is_told_before_anything_is_sent(tmp_path: Path) ->
             "no model is named": {"model": ""},
             "needs to know the prices": {"max_cost": 1.0, "input_price": None},
             "'wheel' is described, but is not in the vocabulary": {"descriptions": {"wheel": "round"}},
-            "this example has no label that a person or a file gave": {"examples": ("t001.obj",)},
         }
         for message, change in bad.items():
             with pytest.raises(UsageError, match=message):
                 label_with_vlm(project, how.model_copy(update=change))
-        with pytest.raises(ProjectError, match=r"there is no asset 't009\.obj'"):
-            label_with_vlm(project, how.model_copy(update={"examples": ("t009.obj",)}))
         project.set_vocabulary(())
-        with pytest.raises(UsageError, match="the vocabulary is empty"):
+        with pytest.raises(ProjectError, match="the vocabulary is empty"):
             label_with_vlm(project, how)
         assert not server.asked
 
@@ -423,23 +376,6 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
     assert not project.layout.labels.ids
 
 
-def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
-    project = family(tmp_path, 2)
-    assets = project.assets()
-    inside: list[list[int]] = []
-
-    @contextmanager
-    def keeping(best: str | None) -> Iterator[None]:
-        before = [len(labels(project, asset)) for asset in assets]
-        yield
-        inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
-
-    with serving(right) as server:
-        found = label_with_vlm(project, settings(server), write_block=keeping)
-    assert inside == [[0, 0, 6, 6]]
-    assert [report.taken for report in found.outcomes] == [6, 6]
-
-
 def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -452,7 +388,7 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
 
     monkeypatch.setattr(prompt, "build_questions", draw)
     with serving(right) as server:
-        assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
+        assert forecast(project, settings(server)).unreadable == ("t001.obj",)
         found = label_with_vlm(project, settings(server))
     assert [report.taken for report in found.outcomes] == [6, 0, 6]
     assert "t001.obj: ZeroDivisionError: no room for the picture" in found.outcomes[1].problems[0]

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
-from meshforge.labels import LabelOutcome, VlmLabeler, VlmResult
+from meshforge.labels import LabelFamily, LabelOutcome, VlmForecast, VlmLabeler, VlmResult, forecast_vlm, ignore_stage
 from meshforge.labels.labeler import WriteBlock
 from meshforge.project import Project
 from meshforge.store import VlmSettings
-from tests.loopback import KEY, Asked, Server, labels_as_json
+from tests.loopback import Asked, Server, labels_as_json
 from tests.unit.batch.families import Corner, label_of, obj, table_boxes
 
 VARIABLE = "MESHFORGE_TEST_API_KEY"
@@ -89,9 +89,11 @@ def label_with_vlm(
     return Labelling(result.usage, result.unasked, result.ended, result.blind, done.outcomes)
 
 
+def forecast(project: Project, settings: VlmSettings, execution: ExecutionOptions = IN_PROCESS) -> VlmForecast:
+    """What labelling a project would send."""
+    return forecast_vlm(LabelFamily(project, project.vocabulary, execution, ignore_stage), settings)
+
+
 def truth(asset: str) -> dict[str, str]:
     """The right label of each hull."""
     return {name: label_of(name) for name in hulls(asset)}
-
-
-__all__ = ["KEY", "VARIABLE", "WORDS", "family", "hulls", "label_with_vlm", "right", "settings", "truth"]

@@ -13,11 +13,9 @@ from hypothesis import strategies as st
 
 from meshforge.common import UsageError
 from meshforge.formats import load
-from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
+from meshforge.geometry import Box, Pose
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
-from meshforge.rendering.camera import Camera
 from meshforge.rendering.labeling.picture import LabelingCanvas
-from meshforge.rendering.labeling.series import VIEW_PREFERENCES
 from meshforge.rendering.labeling.subject import VIEW_WORDS, Arrangement, LabelingSubject
 from meshforge.rendering.placement import LEAST_PIXELS
 from meshforge.symbolic import Asset, Document, NonConvexPiece, Surface, SymbolicMesh
@@ -100,50 +98,12 @@ def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], dat
     ids=["nested", "in one place", "small", "very small", "flat", "block", "many"],
 )
 def test_odd_meshes_are_shown_whole(mesh: SymbolicMesh) -> None:
-    assert_all_shown(mesh, set(mesh.index), draw_labeling_pictures(mesh))
-
-
-def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
-    needle = convex_hull(np.array([[0, 0, 0], [1, 1, 1], [1, 1, 1 + 1e-5], [1, 1 + 1e-5, 1]]))
-    mesh = SymbolicMesh((hull("needle", needle), *mesh_of(box((0.5, 0.5, 0.5), (2, 2, 2))).hulls))
-    thread = mesh_of(box((0, 0, 0), (1e-7, 1e-7, 1)), box((2, 0, 0), (1, 1, 1)))
-    for odd in (mesh, thread):
-        assert_all_shown(odd, set(odd.index), draw_labeling_pictures(odd, size=SMALL), unmet=1)
+    assert_all_shown(mesh, set(mesh.index), draw_labeling_pictures(mesh, size=SMALL if len(mesh.hulls) < 64 else 1024))
 
 
 def test_no_hulls_no_pictures() -> None:
     assert draw_labeling_pictures(SymbolicMesh(())) == ()
     assert draw_labeling_pictures(table(), hulls=()) == ()
-
-
-def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> Ints:
-    """What the middle of each pixel (h, w) shows of boxes along the axes, by arithmetic: -1 for nothing."""
-    width, height = camera.size
-    rows, columns = (part.ravel() for part in np.mgrid[0:height, 0:width])
-    aside, ahead = camera.pixel_rays(columns, rows)
-    ahead = np.where(np.abs(ahead) < 1e-12, 1e-12, ahead)
-    nearest, found = np.full(len(aside), np.inf), np.full(len(aside), -1)
-    for k, one in enumerate(mesh.hulls):
-        low, high = ((corner - middle) / unit for corner in (one.aabb.min, one.aabb.max))
-        first, second = (low - aside) / ahead, (high - aside) / ahead
-        enter, leave = np.minimum(first, second).max(axis=1), np.maximum(first, second).min(axis=1)
-        met = (enter < leave) & (enter < nearest)
-        nearest[met], found[met] = enter[met], k
-    return found.reshape(height, width)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
-def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
-    mesh = scattered(12, seed)
-    subject = LabelingSubject(mesh, {k: k for k in range(12)}, "Z")
-    canvas, whole = LabelingCanvas(subject, 256), Arrangement.in_place(subject)
-    for view in VIEW_PREFERENCES:
-        camera = whole.camera(view, canvas.drawing_size)
-        told = slabs(mesh, camera, whole.view_frame.bounds.center, whole.view_frame.unit)
-        counts = np.bincount(told[told >= 0], minlength=12)
-        seen = np.array(list(canvas.draw(whole, view).visible_pixels.values()))
-        assert np.abs(seen - counts).max() <= 2, f"{view}: rays along an edge may go either way"
 
 
 def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
@@ -157,44 +117,29 @@ def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_
 
 
 @pytest.mark.slow
-def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for() -> None:
-    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((1.5, 0, 0), (1, 1, 1)))
-    for shot in draw_labeling_pictures(mesh):
-        picture = pixels(shot.marked)[60:-40]
-        for name, color in zip(mesh.index, LabelingSubject(mesh, {0: 0, 1: 1}, "Z").colors, strict=True):
-            ratio = picture / np.maximum(picture.max(axis=2, keepdims=True), 1e-9)
-            alike = (np.abs(ratio - color / color.max()).max(axis=2) < 0.15).sum()
-            assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
-
-
-@pytest.mark.slow
 def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
     for mesh in (table(), scattered(8), mesh_of(box((0, 0, 0), (1, 2, 3)))):
-        taken = draw_labeling_pictures(mesh)
+        taken = draw_labeling_pictures(mesh, size=SMALL)
         assert in_place(taken) == list(taken)
+        assert taken[0].name.endswith("above")
 
 
 @pytest.mark.slow
 def test_hidden_hulls_are_drawn_alone() -> None:
-    names = [shot.name for shot in draw_labeling_pictures(nested(3))]
+    names = [shot.name for shot in draw_labeling_pictures(nested(3), size=SMALL)]
     assert [name.split(" alone")[0] for name in names if "alone" in name] == ["hulls 1, 2", "hull 2"]
 
 
 def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
-    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
-    taken = draw_labeling_pictures(mesh)
+    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.502), (0.004, 0.004, 0.004)))
+    taken = draw_labeling_pictures(mesh, size=512)
     (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
     assert close.visible_pixels["h1"] > 10 * max(shot.visible_pixels["h1"] for shot in taken if shot is not close)
 
 
-def test_the_first_picture_is_from_above_a_corner() -> None:
-    for mesh in (table(), scattered(10), nested(2)):
-        assert draw_labeling_pictures(mesh, most=1)[0].name.endswith("above")
-
-
 def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
     mesh = scattered(10)
-    taken = draw_labeling_pictures(mesh, hulls={"h3"})
+    taken = draw_labeling_pictures(mesh, hulls={"h3"}, size=512)
     assert set().union(*(shot.numbered for shot in taken)) == {"h3"}
     picture = pixels(taken[0].marked)[60:-60]
     strong = (np.ptp(picture, axis=2) > 0.25).sum()
@@ -202,6 +147,7 @@ def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
     assert sum(count > 0 for count in taken[0].visible_pixels.values()) > 1, "the others are there"
 
 
+@pytest.mark.slow
 def test_pictures_have_the_size_asked_for_and_the_same_bytes_every_time() -> None:
     first, second = (draw_labeling_pictures(nested(3), size=size) for size in (SMALL, SMALL))
     for one, other in zip(first, second, strict=True):
@@ -215,20 +161,11 @@ def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_ca
     shape = box((0, 0, 0), (1, 1, 1))
     glass = surface_of(box((0, 0, 0), (3, 3, 3)), (0.0, 0.0, 1.0, 0.0))
     mesh = with_asset(mesh_of(shape), visuals=(surface_of(shape, (0.8, 0.1, 0.1, 1.0)), glass))
-    (shot, *_) = draw_labeling_pictures(mesh)
+    (shot, *_) = draw_labeling_pictures(mesh, size=SMALL)
     plain = pixels(shot.plain)
     red = (plain[..., 0] - plain[..., 1]) > 0.2
     assert red.sum() == pytest.approx(shot.visible_pixels["h0"], rel=0.02)
     assert not ((plain[..., 2] - plain[..., 0]) > 0.2).any(), "what is clear is not drawn"
-
-
-def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material() -> None:
-    (shot, *_) = draw_labeling_pictures(scattered(6))
-    plain, marked = pixels(shot.plain), pixels(shot.marked)
-    assert np.ptp(plain, axis=2).max() < 0.12
-    assert np.ptp(marked, axis=2).max() > 0.3
-    drawn = (plain.min(axis=2) < 0.85).sum()
-    assert drawn == pytest.approx(sum(shot.visible_pixels.values()), rel=0.1), "outlines are drawn around what is seen"
 
 
 @pytest.mark.slow
@@ -243,7 +180,7 @@ def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain
     assert 0 < shot.visible_pixels["h0"] < alone.visible_pixels["h0"], "it is framed as well"
     drawn = (pixels(shot.plain).min(axis=2) < 0.97).sum()
     assert drawn > 1.7 * shot.visible_pixels["h0"]
-    assert (pixels(shot.marked)[50:-40].min(axis=2) < 0.9).sum() > 1.02 * shot.visible_pixels["h0"]
+    assert (pixels(shot.marked)[50:-40].min(axis=2) < 0.99).sum() > 1.7 * shot.visible_pixels["h0"]
 
 
 def test_up_may_be_y() -> None:
@@ -256,26 +193,9 @@ def test_up_may_be_y() -> None:
         assert all(abs(count - other.visible_pixels[name]) <= 4 for name, count in one.visible_pixels.items())
 
 
-def test_many_round_hulls_are_round_enough() -> None:
-    mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
-    canvas = LabelingCanvas(LabelingSubject(mesh, {k: k for k in range(12)}, "Z"), 1024)
-    shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
-    radius = 0.88 * 1024 / 35
-    assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"hulls": {"left", "lef"}}, "'lef'"),
-        ({"most": 0}, "0 pictures"),
-        ({"size": 100}, "100 pixels"),
-        ({"size": 5000}, "5000 pixels"),
-    ],
-)
-def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> None:
-    with pytest.raises(UsageError, match=words):
-        draw_labeling_pictures(table(), **options)
+def test_a_hull_that_is_not_there_is_named() -> None:
+    with pytest.raises(UsageError, match="'lef'"):
+        draw_labeling_pictures(table(), hulls={"left", "lef"})
 
 
 @pytest.mark.slow

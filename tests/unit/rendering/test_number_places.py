@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Floats, Ints
-from meshforge.rendering.annotation import LabelAnchor, find_label_anchors
+from meshforge.rendering.annotation import find_label_anchors
 from meshforge.rendering.placement import (
     LEAST_PIXELS,
     NumberPlace,
@@ -83,11 +83,10 @@ def test_a_number_beside_its_hull_goes_to_free_paper() -> None:
     assert (items[top:bottom, left:right] == -1).all()
 
 
-def test_hulls_hardly_seen_have_no_number_unless_it_is_known_where_they_are() -> None:
+def test_hulls_hardly_seen_have_no_number() -> None:
     items = picture([(100, 100, 4, 5)])
     assert LEAST_PIXELS > 20
     assert not place_numbers(items, {0: SIZES, 1: SIZES})
-    assert [place.item for place in place_numbers(items, {0: SIZES, 1: SIZES}, {1: LabelAnchor(30, 40, 0.0)})] == [1]
 
 
 BOX = st.tuples(*[st.integers(0, 30)] * 4).map(lambda b: (b[0], b[1], b[0] + 1 + b[2] // 3, b[1] + 1 + b[3] // 3))

@@ -1,105 +1,50 @@
-"""Questions asked, once more where something is open, and what their answers say of hulls: read leniently, and added up
-over questions and repeats."""
+"""Questions asked, and what their answers say of hulls, read leniently."""
 
 import json
 import re
-from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 from meshforge.common import join_names
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import QuestionError
 from meshforge.labels.vlm.prompt import HullKey, HullQuestion, PromptConfig
-from meshforge.labels.vlm.question import Message, Reply, VlmQuestion
 from meshforge.symbolic import Label
 
-_OBJECT = re.compile(r"\{[^{}]*\}")
-_NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
-_AGAIN = """\
-That answer leaves something open{why}. Answer again in the same form, for these numbers only: {numbers}."""
+_ENTRY = re.compile(r'"#?(\d{1,9})"\s*:\s*"((?:[^"\\]|\\.)*)"')
 _UNANSWERED = "the question got no answer"
 _NOT_KNOWN = "the model does not know"
-_QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _MOST_SHOWN = 60  # characters of a word that is no label
-
-_AGAINST = 0.4
-"""What speaks against every label from the outset, in votes: one vote alone makes a confidence of 0.71, two that agree
-0.83, two against one 0.59."""
+_CONFIDENCE = 0.71  # of a label that a model gives; not measured
 
 
-@dataclass(frozen=True, slots=True)
-class HullAnswer:
-    """What was said of the hulls asked about. labels: by number, among them that for unknown.
+def read_answer(text: str, asked: Iterable[int], words: Sequence[str]) -> tuple[dict[int, str], dict[int, str]]:
+    """Return the labels that a text gives, and why it gives none, both by number; it may be JSON, JSON in chatter or
+    code fences, or JSON that is cut off.
 
-    odd: words that are no labels; open: numbers asked about of which nothing usable was said, in their order.
+    words: that it may say. Numbers that were not asked about are passed over; one with two labels gets none.
     """
-
-    labels: Mapping[int, str]
-    unrecognised: tuple[str, ...]
-    open: tuple[int, ...]
-
-    @property
-    def problem(self) -> str:
-        """Why hulls are left open, in words; empty where none is."""
-        if not self.open:
-            return ""
-        if self.unrecognised:
-            return f"the model said {join_names(self.unrecognised)}, which is no label"
-        return "the model said nothing usable of it"
-
-
-def read_answer(text: str, asked: Collection[int], words: Sequence[str]) -> HullAnswer:
-    """Return what a text says, be it JSON, JSON in chatter or code fences, or JSON that is cut off.
-
-    words: that it may say. Numbers that were not asked about are passed over; one with two labels is left open.
-    """
-    known, found = {_normalize(word): word for word in reversed(words)}, dict[int, set[str]]()
-    unrecognised = dict[str, None]()
-    for number, word in _entries(text):
-        if number not in asked:
-            continue
-        if label := word if word in words else known.get(_normalize(word)):
-            found.setdefault(number, set()).add(label)
-        else:
-            unrecognised[word[:_MOST_SHOWN]] = None
-    labels = {number: labels.pop() for number, labels in sorted(found.items()) if len(labels) == 1}
-    return HullAnswer(labels, tuple(unrecognised), tuple(number for number in sorted(asked) if number not in labels))
+    forms = ((word, form) for word in reversed(words) for form in (word, json.dumps(word)[1:-1]))
+    known = {_normalize(form): word for word, form in forms} | {word: word for word in words}
+    found = defaultdict[int, dict[str, None]](dict)
+    for number, word in _ENTRY.findall(text.rpartition('"hulls"')[2]):  # before it a model may think aloud
+        found[int(number)][known.get(word) or known.get(_normalize(word), word[:_MOST_SHOWN])] = None
+    labels, left = dict[int, str](), dict[int, str]()
+    for number in asked:
+        match [*found[number]]:
+            case [word] if word in words:
+                labels[number] = word
+            case []:
+                left[number] = "the model said nothing usable of it"
+            case other:
+                left[number] = f"the model said {join_names(other)}, which is no label"
+    return labels, left
 
 
 def _normalize(word: str) -> str:
     """A word without what models change at whim: case, spaces for underscores, marks about it."""
     return " ".join(re.sub(r"[\s_\-]+", " ", word.strip().strip("\"'`*.")).casefold().split())
-
-
-def _entries(text: str) -> Iterator[tuple[int, str]]:
-    """The numbers with their words in the last list of hulls: before it a model may think aloud."""
-    _, _, last = text.rpartition('"hulls"')
-    for part in _OBJECT.findall(last):
-        try:
-            found = json.loads(part)
-        except ValueError:
-            continue
-        rows = [(found["number"], found.get("label"))] if "number" in found else found.items()
-        for number, word in rows:
-            if isinstance(word, str) and (match := _NUMBER.fullmatch(str(number).strip())):
-                yield int(match[1]), word
-
-
-def decide_label(votes: Sequence[str], words: Sequence[str]) -> tuple[str, float] | None:
-    """Return the word with most votes, of equals the first, and its confidence; None where there is no vote."""
-    count = Counter(votes)
-    best = max(words, key=count.__getitem__)
-    return (best, round(count[best] / (len(votes) + _AGAINST), 4)) if votes else None
-
-
-def ask_again(question: VlmQuestion, reply: Reply, answer: HullAnswer) -> VlmQuestion:
-    """Return the question with its answer, and words that ask for what that left open; with more room if it was cut."""
-    odd = ", ".join(json.dumps(word, ensure_ascii=False) for word in answer.unrecognised)
-    why = f" ({odd} {'is no label' if len(answer.unrecognised) == 1 else 'are no labels'})" if odd else ""
-    text = _AGAIN.format(why=why, numbers=", ".join(map(str, answer.open)))
-    messages = *question.messages, Message.assistant(reply.text[:_QUOTED] or "-"), Message.user(text)
-    return replace(question, messages=messages, limit=question.limit * (2 if reply.is_cut else 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,31 +63,21 @@ class VlmAnswers:
 def ask_questions(
     client: Client, config: PromptConfig, questions: Iterable[HullQuestion], wanted: Collection[HullKey] | None = None
 ) -> VlmAnswers:
-    """Return what a model says of hulls, or of those that are wanted; what an answer leaves open is asked once more."""
-    votes, why, failed = defaultdict[HullKey, list[str]](list), dict[HullKey, str](), dict[str, None]()
-    words = (*config.vocabulary, config.unknown)
+    """Return what a model says of hulls, or of those that are wanted."""
+    labels, left = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
+    failed, words = dict[str, None](), (*config.vocabulary, config.unknown)
     for one in questions:
-        question, left = one.question, tuple(one.hulls)
-        why = {one.hulls[number]: _UNANSWERED for number in left} | why
-        for _ in range(2):
-            try:
-                reply = client.ask(question)
-            except QuestionError as error:
-                failed[error.sentence] = None
-                break
-            answer = read_answer(reply.text, left, words)
-            for number, label in answer.labels.items():
-                votes[one.hulls[number]].append(label)
-            left = answer.open
-            cause = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
-            why |= {one.hulls[number]: cause for number in left}
-            if not left:
-                break
-            question = ask_again(question, reply, answer)
-    labels, left_open = defaultdict[str, dict[str, Label]](dict), defaultdict[str, dict[str, str]](dict)
-    for asset, hull in why if wanted is None else filter(wanted.__contains__, why):
-        if found := decide_label(votes[asset, hull], words):
-            labels[asset][hull] = Label(*found, "vlm")
-        if not found or found[0] == config.unknown:
-            left_open[asset][hull] = _NOT_KNOWN if found else why[asset, hull]
-    return VlmAnswers(dict(labels), dict(left_open), tuple(failed))
+        try:
+            reply = client.ask(one.question)
+            answer, why = read_answer(reply.text, one.hulls, words)
+            why = dict.fromkeys(why, "the answer was cut off: raise room in [vlm]") if reply.finish == "length" else why
+        except QuestionError as error:
+            failed[error.sentence] = None
+            answer, why = {}, dict.fromkeys(one.hulls, _UNANSWERED)
+        why |= {number: _NOT_KNOWN for number, label in answer.items() if label == config.unknown}
+        for number, (asset, hull) in one.hulls.items():
+            if number in answer and (wanted is None or (asset, hull) in wanted):
+                labels[asset][hull] = Label(answer[number], _CONFIDENCE, "vlm")
+            if number in why and (wanted is None or (asset, hull) in wanted):
+                left[asset][hull] = why[number]
+    return VlmAnswers(labels, left, tuple(failed))

@@ -6,14 +6,12 @@ from __future__ import annotations
 import threading
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from meshforge.common import UsageError, pluralize
 from meshforge.labels.vlm.cost import CostLimiter, Usage
-from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
-from meshforge.labels.vlm.question import AnswerCache, Reply, VlmQuestion, build_body, find_refused, probe_question
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError
+from meshforge.labels.vlm.question import AnswerCache, Reply, VlmQuestion, probe_question
 
 if TYPE_CHECKING:
     from openai import APIStatusError, OpenAI
@@ -23,6 +21,8 @@ _PROBE_RETRIES = 2  # of the first question at most: a server that is not there 
 _NO_MONEY = ("insufficient_quota", "billing_hard_limit", "billing_not_active", "credit balance", "insufficient balance")
 _LONG = 400  # characters of a server's complaint that are shown
 _SHORT = 60  # and of what it sends in place of JSON
+_SCHEMA, _MANNER = frozenset({"response_format"}), frozenset({"temperature", "max_tokens"})
+"""What servers may refuse: some a schema; models that think the others, the last of which has another name there."""
 
 
 class Client:
@@ -51,12 +51,9 @@ class Client:
         self._limiter = CostLimiter(endpoint, max_cost)
         self._stop = stop
         self._sdk: OpenAI | None = None
-        self._probing = threading.Lock()
-        self._lock = threading.Lock()
+        self._thread: Any = threading.local()
+        self._probing, self._lock = threading.Lock(), threading.Lock()
         self._turns = defaultdict[str, threading.Lock](threading.Lock)
-        self._attempts: Any = threading.local()
-        """Those at the question that a thread asks. count: so far; bound: what one costs at most [$]; is_open: whether
-        the last is under way, and is_lost: whether it may have been charged for though no answer came."""
         self._unanswered, self._answered = 0, False
 
     @property
@@ -73,7 +70,8 @@ class Client:
                     retries = min(_PROBE_RETRIES, self.endpoint.settings.retries)
                     self.is_blind = "red" not in self._ask_with_less(probe_question(), retries).text.lower()
                 except QuestionError as error:
-                    raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
+                    self.end = self.end or EndError(error.problem, where=error.where, remedy=error.remedy)
+                    raise self.end from error
 
     def find_answer(self, question: VlmQuestion) -> Reply | None:
         """Return the answer that was given earlier, None where there is none; never ask."""
@@ -89,7 +87,7 @@ class Client:
             turn = self._turns[question.digest(self.endpoint)]
         with turn:
             if known := self.find_answer(question):
-                self._limiter.count(Usage(cached=1))
+                self._limiter.count(cached=1)
                 return known
             self.probe()
             reply = self._ask_with_less(question, self.endpoint.settings.retries)
@@ -103,133 +101,100 @@ class Client:
             self._sdk.close()
 
     def _ask_with_less(self, question: VlmQuestion, retries: int) -> Reply:
-        """Ask with less as long as the request is refused."""
-        refused = self.refused
-        while True:
+        """Ask, with less where the request is refused; after the first question only the schema can be spared."""
+        first = self.refused, self.refused | _SCHEMA
+        for refused in first if self._answered else (*first, _MANNER, _MANNER | _SCHEMA):
             try:
-                reply = self._send(build_body(question, self.endpoint, refused), question, retries)
+                reply = self._send(question, refused, retries)
                 self.refused = refused
                 return reply
             except RefusalError as error:
-                more = find_refused(error.problem, refused, is_first=not self._answered)
-                if more is None:
-                    raise
-                refused |= {more}
+                refusal = error
+            except EndError as error:  # the first after which there is nothing to ask; later questions get the same
+                self.end = self.end or error
+                raise self.end from error.__cause__
+        raise refusal
 
-    def _send(self, body: dict[str, Any], question: VlmQuestion, retries: int) -> Reply:
+    def _send(self, question: VlmQuestion, refused: frozenset[str], retries: int) -> Reply:
         """Ask, and count what it costs."""
-        mine = self._attempts
-        mine.count, mine.bound, mine.is_open, mine.is_lost = 0, self._limiter.upper_bound(question), False, False
-        try:
-            found = self._complete(body, retries)
-            mine.is_lost = False
-            usage, cost = self._limiter.charge(question, _read_usage(found))
-            reply = replace(self._read_reply(found), usage=usage, cost=cost)
-        except EndError as error:
-            raise self._end_with(error) from error.__cause__
-        finally:
-            self._close_attempt()
-        with self._lock:
-            self._unanswered, self._answered = 0, True
-        return reply
-
-    def _complete(self, body: dict[str, Any], retries: int) -> Any:
-        """What the SDK makes of the response, which it does not verify."""
-        sdk = self._connect()
-        import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
-        from openai.types.chat import ChatCompletion  # lazy: as openai
-
-        options: Any = {"max_retries": retries, "follow_redirects": False}  # nobody approved where a redirect leads
-        try:
-            found: Any = sdk.post("/chat/completions", cast_to=ChatCompletion, body=body, options=options)
-        except openai.APIConnectionError as error:
-            cause, where = error.__cause__, self.endpoint.place
-            why = self._redact(str(cause or "")) or "the connection broke"
-            if isinstance(error, openai.APITimeoutError):
-                why = f"no answer within {self.endpoint.settings.timeout:g} seconds"
-            elif type(cause).__name__ in ("ConnectError", "UnsupportedProtocol"):
-                self._attempts.is_lost = False
-                if not self._answered:
-                    remedy = "Is the server running, and base_url right?"
-                    raise EndError(f"the server cannot be reached: {why}", where=where, remedy=remedy) from error
-            raise self._give_up(why) from error
-        except openai.APIStatusError as error:
-            self._attempts.is_lost = False
-            raise self._explain_status(error) from error
-        except ValueError as error:
-            raise self._explain_text(getattr(error, "doc", "")) from error
-        if isinstance(found, str):
-            raise self._explain_text(found)
-        return found
-
-    def _connect(self) -> OpenAI:
-        try:
-            from openai import OpenAI  # lazy: as openai
-        except ImportError as error:
-            remedy = "Install it: pip install 'meshforge[vlm]'."
-            raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error
-        begin, attempts = self._begin_attempt, self._attempts
-
-        class CountedOpenAI(OpenAI):
-            """Each attempt is allowed and counted before it is made."""
-
-            def _prepare_request(self, request: Any) -> None:
-                begin()
-
-            def _should_retry(self, response: Any) -> bool:
-                attempts.is_lost = False  # the server answered that it will not
-                return super()._should_retry(response)
-
-        settings = self.endpoint.settings
-        with self._lock:
-            if self._sdk is None:
-                try:
-                    self._key = self.endpoint.key()
-                except UsageError as error:
-                    raise EndError(error.problem, where=error.where, remedy=error.remedy) from error
-                key = self._key or "none"  # the SDK wants one even where the server does not
-                self._sdk = CountedOpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout)
-            return self._sdk
-
-    def _begin_attempt(self) -> None:
-        """Allow one more attempt. Raises EndError where no further one is to be made."""
-        mine = self._attempts
-        self._close_attempt()
-        if mine.count:
-            self._limiter.count(Usage(retries=1))
         if self.end:
             raise self.end
         if self._stop():
             raise EndError("stopped", remedy="What was answered is kept, and is not asked again.")
-        self._limiter.reserve(mine.bound, self._stop)
-        mine.count, mine.is_open, mine.is_lost = mine.count + 1, True, True
+        sdk = self._connect().with_options(max_retries=retries)
+        import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
 
-    def _close_attempt(self) -> None:
-        mine = self._attempts
-        if mine.is_open:
-            self._limiter.release(mine.bound, is_lost=mine.is_lost)
-        mine.is_open = False
+        body, mine = question.to_body(self.endpoint, refused), self._thread
+        mine.sent = mine.silent = 0
+        with self._limiter.reserve(question, self._stop) as bound:
+            try:
+                found: Any = sdk.chat.completions.create(model="", messages=[], extra_body=body)
+                mine.silent -= 1
+            except openai.APIConnectionError as error:
+                why = self._redact(str(error.__cause__ or "")) or "the connection broke"
+                if isinstance(error, openai.APITimeoutError):
+                    why = f"no answer within {self.endpoint.settings.timeout:g} seconds"
+                raise self._give_up(why) from error
+            except openai.APIStatusError as error:
+                raise self._explain_status(error) from error
+            except ValueError as error:
+                found = getattr(error, "doc", "")
+            finally:
+                self._limiter.count(retries=max(mine.sent - 1, 0), perhaps=bound * mine.silent)
+            if isinstance(found, str):
+                begin = self._redact(" ".join(found.split()))[:_SHORT]
+                problem = f"the server sent something that is no JSON: {begin or 'nothing'}"
+                remedy = "Is base_url right? It mostly ends with /v1. What was answered is not asked again."
+                raise EndError(problem, where=self.endpoint.place, remedy=remedy)
+            reply = self._limiter.charge(question, _read_reply(found))
+        if not reply.finish:
+            raise self._give_up("the server sent something that is no answer")
+        self._unanswered, self._answered = 0, True
+        return reply
+
+    def _connect(self) -> OpenAI:
+        try:
+            from openai import DefaultHttpxClient, OpenAI  # lazy: as openai
+        except ImportError as error:
+            remedy = "Install it: pip install 'meshforge[vlm]'."
+            raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error
+        settings = self.endpoint.settings
+        with self._lock:
+            if self._sdk is None:
+                self._key = self.endpoint.key()
+                key = self._key or "none"  # the SDK wants one even where the server does not
+                hooks: Any = {"request": [self._note_request], "response": [self._note_response]}
+                http = DefaultHttpxClient(follow_redirects=False, event_hooks=hooks)  # no host but the approved one
+                self._sdk = OpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout, http_client=http)
+            return self._sdk
+
+    def _note_request(self, request: Any) -> None:
+        self._thread.sent, self._thread.silent = self._thread.sent + 1, self._thread.silent + 1
+
+    def _note_response(self, response: Any) -> None:
+        """Where a response says that there will be no answer, an attempt costs nothing."""
+        self._thread.silent -= not response.is_success
 
     def _give_up(self, problem: str) -> QuestionError:
         """A question that got no answer; EndError where nobody seems to be there."""
         with self._lock:
             self._unanswered += 1
         where = self.endpoint.place
-        problem = f"no answer after {pluralize(self._attempts.count, 'attempt')}, the last: {problem}"
+        if not self._answered:
+            remedy = "Is the server running, and base_url right?"
+            return EndError(f"the server cannot be reached: {problem}", where=where, remedy=remedy)
         if self._unanswered > self.endpoint.settings.concurrency + _DOWN:
             remedy = "Try again later; what was answered is not asked again."
-            return EndError(f"several questions in a row got {problem}", where=where, remedy=remedy)
-        return QuestionError(problem, where=where)
-
-    def _explain_text(self, text: str) -> EndError:
-        begin = self._redact(" ".join(text.split()))[:_SHORT]
-        problem = f"the server sent something that is no JSON: {begin or 'nothing'}"
-        remedy = "Is base_url right? It mostly ends with /v1. What was answered is not asked again."
-        return EndError(problem, where=self.endpoint.place, remedy=remedy)
+            return EndError(
+                f"several questions in a row got no answer, the last: {problem}", where=where, remedy=remedy
+            )
+        return QuestionError(f"no answer: {problem}", where=where)
 
     def _explain_status(self, error: APIStatusError) -> QuestionError:
-        status, text = error.status_code, self._redact(_error_text(error))
-        where, complaint = self.endpoint.place, text.lower()
+        status, where, fields = error.status_code, self.endpoint.place, error.body
+        text = fields.get("message") if isinstance(fields, dict) else None
+        text = self._redact(" ".join(str(text or error.message).split()))[:_LONG]
+        complaint = f"{text} {fields}".lower()
         if status == 402 or (status in (400, 403, 429) and any(word in complaint for word in _NO_MONEY)):
             return EndError(f"the account has no money left: {text}", where=where)
         if status in (408, 409, 425, 429) or status >= 500:
@@ -246,38 +211,21 @@ class Client:
             return EndError(problem, where=where, remedy="Look at base_url and model; a base_url mostly ends with /v1.")
         return RefusalError(f"the server refused the question ({status}): {text}", where=where)
 
-    def _read_reply(self, found: Any) -> Reply:
-        try:
-            choice = found.choices[0]
-            text = choice.message.content or choice.message.refusal or ""
-            text = text if isinstance(text, str) else "".join(part["text"] for part in text if "text" in part)
-        except (AttributeError, IndexError, KeyError, TypeError) as error:
-            raise self._give_up("the server sent something that is no answer") from error
-        finish = choice.finish_reason if isinstance(choice.finish_reason, str) else "stop"
-        return Reply(text.encode(errors="replace").decode(), finish)
-
     def _redact(self, text: str) -> str:
         return text.replace(self._key, "...") if self._key else text
 
-    def _end_with(self, error: EndError) -> EndError:
-        """The first error after which there is nothing to ask; later questions get the same."""
-        self.end = self.end or error
-        return self.end
 
-
-def _read_usage(found: Any) -> TokenCount | None:
+def _read_reply(found: Any) -> Reply:
+    """What the SDK read, which may be of any form; without `finish` where it is no answer."""
     usage = getattr(found, "usage", None)
     counts = [getattr(usage, name, None) for name in ("prompt_tokens", "completion_tokens")]
     known = [count for count in counts if isinstance(count, int) and count >= 0]
-    return TokenCount(known[0], known[1]) if len(known) == 2 else None
-
-
-def _error_text(error: APIStatusError) -> str:
-    """What the server complains about, in one line, with its code."""
-    body: Any = error.body
-    if isinstance(body, list) and body and isinstance(body[0], dict):
-        body = body[0].get("error", body[0])
-    fields = body if isinstance(body, dict) else {"message": body}
-    text, kind = str(fields.get("message") or fields.get("detail") or error.message), fields.get("code", error.type)
-    words = " ".join(f"{text} ({kind})".split() if kind and str(kind) not in text else text.split())
-    return words if len(words) <= _LONG else f"{words[:_LONG]} ..."
+    given, made = known if len(known) == 2 else (0, 0)
+    try:
+        choice = found.choices[0]
+        text = choice.message.content or choice.message.refusal or ""
+        text = text if isinstance(text, str) else "".join(part["text"] for part in text if "text" in part)
+        finish = str(choice.finish_reason or "stop")
+    except (AttributeError, IndexError, KeyError, TypeError):
+        text = finish = ""
+    return Reply(text.encode(errors="replace").decode(), finish, given, made, len(known) < 2)

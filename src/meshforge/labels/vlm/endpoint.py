@@ -8,7 +8,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from meshforge.common import MeshForgeError, UsageError, write_atomically
 from meshforge.store import VlmSettings
@@ -36,18 +36,6 @@ class EndError(QuestionError):
 
 
 @dataclass(frozen=True, slots=True)
-class TokenCount:
-    """Tokens that went in and came out; estimated: the server named no number."""
-
-    input: int = 0
-    output: int = 0
-    estimated: bool = False
-
-    def __add__(self, other: TokenCount) -> TokenCount:
-        return TokenCount(self.input + other.input, self.output + other.output, self.estimated or other.estimated)
-
-
-@dataclass(frozen=True, slots=True)
 class Endpoint:
     """An OpenAI-compatible server and a model on it, as the table [vlm] names them.
 
@@ -57,7 +45,7 @@ class Endpoint:
     settings: VlmSettings
 
     def __post_init__(self) -> None:
-        parts = urlsplit(self.settings.base_url)
+        parts = self._parts
         if parts.scheme not in ("http", "https") or not parts.hostname:
             raise UsageError(
                 f"{self.settings.base_url!r} is no address", remedy="Give it like https://api.openai.com/v1."
@@ -75,15 +63,19 @@ class Endpoint:
             raise UsageError("no model is named", where=self.place, remedy="Name one: --model NAME, or model in [vlm].")
 
     @property
+    def _parts(self) -> SplitResult:
+        return urlsplit(self.settings.base_url)
+
+    @property
     def host(self) -> str:
         """The name of the machine, with the port where one is given."""
-        parts = urlsplit(self.settings.base_url)
-        return f"{parts.hostname}:{parts.port}" if parts.port else parts.hostname or ""
+        name, port = self._parts.hostname or "", self._parts.port
+        return f"{name}:{port}" if port else name
 
     @property
     def is_loopback(self) -> bool:
         """Whether the host is this machine."""
-        name = urlsplit(self.settings.base_url).hostname or ""
+        name = self._parts.hostname or ""
         try:
             return name == "localhost" or ip_address(name).is_loopback
         except ValueError:
@@ -92,36 +84,30 @@ class Endpoint:
     @property
     def place(self) -> str:
         """The address without anything secret."""
-        parts = urlsplit(self.settings.base_url)
-        return f"{parts.scheme}://{self.host}{parts.path.rstrip('/')}"
+        return f"{self._parts.scheme}://{self.host}{self._parts.path.rstrip('/')}"
 
     @property
     def key_name(self) -> str:
         """The environment variable of the key, empty where the server wants none."""
         named = self.settings.key_env
-        return _KEYS.get(urlsplit(self.settings.base_url).hostname or "", "") if named is None else named
-
-    @property
-    def has_key(self) -> bool:
-        """Whether the key is there, or none is wanted."""
-        return not self.key_name or bool(os.environ.get(self.key_name, "").strip())
+        return _KEYS.get(self._parts.hostname or "", "") if named is None else named
 
     def key(self) -> str:
-        """Return the key, empty where the server wants none. Raises UsageError where its variable is not set."""
+        """Return the key, empty where the server wants none. Raises EndError where its variable is not set."""
         name = self.key_name
-        if not self.has_key:
+        key = os.environ.get(name, "").strip() if name else ""
+        if name and not key:
             remedy = f'Set it: export {name}=...; for a server that wants no key write key_env = "" in [vlm].'
-            raise UsageError(f"the environment variable {name}, which holds the key, is not set", remedy=remedy)
-        return os.environ[name].strip() if name else ""
+            raise EndError(f"the environment variable {name}, which holds the key, is not set", remedy=remedy)
+        return key
 
     @property
     def is_priced(self) -> bool:
         return None not in (self.settings.input_price, self.settings.output_price)
 
-    def price(self, usage: TokenCount) -> float:
-        """Return what so many tokens cost [$]; a price that is not known counts as none."""
-        prices = self.settings.input_price or 0, self.settings.output_price or 0
-        return (prices[0] * usage.input + prices[1] * usage.output) / 1_000_000
+    def price(self, given: float, made: float) -> float:
+        """Return what so many tokens in and out cost [$]; a price that is not known counts as none."""
+        return (given * (self.settings.input_price or 0) + made * (self.settings.output_price or 0)) / 1_000_000
 
 
 def approve_host(host: str) -> None:
@@ -133,14 +119,11 @@ def approve_host(host: str) -> None:
     write_atomically(_approvals_path(), _HEAD + "".join(f"{line}\n" for line in lines))
 
 
-def is_approved(endpoint: Endpoint) -> bool:
-    """Tell whether pictures and a key may be sent: to this machine always, elsewhere where the user said so."""
-    return endpoint.is_loopback or endpoint.host in _read_approved()
-
-
 def check_approved(endpoint: Endpoint, typed: Collection[str] = ()) -> None:
-    """Raise UsageError where an endpoint is not approved. typed: addresses that the user typed for this run."""
-    if endpoint.settings.base_url not in typed and not is_approved(endpoint):
+    """Raise UsageError where the user has approved neither an endpoint's host, nor its address, which is one of those
+    `typed` for this run; this machine needs no approval."""
+    approved = endpoint.is_loopback or endpoint.settings.base_url in typed or endpoint.host in _read_approved()
+    if not approved:
         problem = f"you have not approved {endpoint.host} yet: {describe_sending(endpoint)}"
         remedy = f"If you trust it: meshforge label PROJECT --approve-host {endpoint.host}"
         raise UsageError(problem, remedy=remedy)

@@ -1,26 +1,28 @@
 """Labels from a model: of exemplars, propagated to all hulls that are like them, or of every hull; and what that would
 cost."""
 
-from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Collection, Generator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
+from threading import BoundedSemaphore
+from typing import Any
 
-from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.label_model import reference_label
 from meshforge.labels.family_comparison import FamilyDescription, compare_assets
-from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, ignore_stage
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.vlm.answer import VlmAnswers, ask_questions
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.cost import Usage, estimate_tokens
-from meshforge.labels.vlm.endpoint import Endpoint, TokenCount, check_approved
+from meshforge.labels.vlm.cost import CostLimiter, Usage
+from meshforge.labels.vlm.endpoint import Endpoint, check_approved
 from meshforge.labels.vlm.plan import QuestionBatch, draw_questions, plan_questions
 from meshforge.labels.vlm.prompt import PromptConfig
-from meshforge.store import Store, VlmSettings
+from meshforge.labels.vlm.question import Reply
+from meshforge.store import VlmSettings
 from meshforge.symbolic import Label
 
 _LIKE_UNKNOWN = "the model does not know hulls that are like it"
-_WAITING = 4  # questions for each thread that are under way or wait; no more are drawn ahead
+_AHEAD = 4  # questions for each thread that are under way or wait; no more are drawn ahead
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +41,11 @@ class VlmResult:
 
 class VlmLabeler(Labeler):
     """Asks a vision-language model about exemplars, and propagates their labels to hulls that are like them; or asks
-    about every hull, where the settings say so. Labels of people and files stay. Answers are kept, so that none is paid
-    for twice.
+    about every hull, where the settings say so. Answers are kept, so that none is paid for twice.
 
-    settings: those of the project when None; typed: addresses that the user typed, who thereby approves them: elsewhere
-    but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking; the labels that
-    the model gave by then are proposed, and not propagated. result: how it went, once all is proposed.
-    Raises MeshForgeError where nothing could be asked at all.
+    settings: those of the project when None; typed: addresses that the user typed, and thereby approves. `stop` of the
+    execution ends the asking; what the model said by then is proposed, and not propagated. result: how it went, once
+    all is proposed. Raises MeshForgeError where nothing could be asked at all.
     """
 
     name = "vlm"
@@ -58,7 +58,7 @@ class VlmLabeler(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         settings = self.settings or family.store.settings.vlm
         check_approved(Endpoint(settings), self.typed)
-        labels = [*self._label(family, PromptConfig(family.vocabulary, settings))]
+        labels = [*self._label(family, PromptConfig(family.require_vocabulary(), settings))]
         return LabelProposal(one for one in labels)
 
     def _label(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
@@ -66,22 +66,21 @@ class VlmLabeler(Labeler):
         described, plans = plan_questions(family, config)
         lost, hulls = (described.lost, dict(described.hulls)) if described else ({}, {})
         labels, left = dict[str, Mapping[str, Label]](), dict[str, Mapping[str, str]]()
-        problems, reached, done = dict[str, tuple[str, ...]](), set[str](), 0
+        problems, reached = dict[str, tuple[str, ...]](), set[str]()
         client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)
         with closing(client), family.stage(len(plans), "asking") as advance:
-            for drawn, answers in _ask(client, family, config, draw_questions(family, plans, config)):
+            asked = _ask(client, config, draw_questions(family, plans, config), stop, advance)
+            for drawn, answers in asked:
                 hulls |= drawn.assets
                 labels |= answers.labels
                 left |= answers.open
                 lost |= dict.fromkeys(drawn.plan, drawn.error) if drawn.error else {}
                 problems[next(iter(drawn.plan))] = answers.failed
                 reached |= {*drawn.plan} if answers.labels or not answers.failed else set()
-                done += 1
-                advance()
         end = client.end
         if end and not client.usage.answered + client.usage.cached:
             raise end
-        is_whole = not end and done == len(plans)
+        is_whole = not end and len(asked) == len(plans)
         ended = None if is_whole else end.message if end else "stopped"
         unasked = () if is_whole else tuple(asset for asset in store.assets() if asset not in reached)
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
@@ -100,28 +99,29 @@ class VlmLabeler(Labeler):
 
 
 def _ask(
-    client: Client, family: LabelFamily, config: PromptConfig, questions: Generator[QuestionBatch, None, None]
-) -> Iterator[tuple[QuestionBatch, VlmAnswers]]:
-    """Yield questions with their answers, in order, as long as asking goes on; several are under way at once."""
-    stop, concurrency = family.execution.stop or (lambda: False), config.settings.concurrency
-    threads = ThreadPoolExecutor(concurrency, "asking")
-    waiting = list[tuple[QuestionBatch, Future[VlmAnswers]]]()
+    client: Client,
+    config: PromptConfig,
+    questions: Generator[QuestionBatch, None, None],
+    stop: Callable[[], bool],
+    advance: Callable[[], None],
+) -> list[tuple[QuestionBatch, VlmAnswers]]:
+    """Return questions with their answers, in order, as far as asking goes on; several are under way at once."""
+    room = BoundedSemaphore(_AHEAD * config.settings.concurrency)
 
-    def take() -> tuple[QuestionBatch, VlmAnswers]:
-        drawn, future = waiting.pop(0)
-        while not future.done():
-            stop()  # it says so as soon as a stop is wanted, though what is under way is waited for
-            wait([future], timeout=0.1)
-        return drawn, future.result()
+    def ask(one: QuestionBatch) -> tuple[QuestionBatch, VlmAnswers]:
+        try:
+            return replace(one, questions=()), ask_questions(client, config, one.questions, one.wanted)
+        finally:
+            room.release()
+            advance()
 
+    threads, asked = ThreadPoolExecutor(config.settings.concurrency, "asking"), list[Future[Any]]()
     try:
         with closing(questions):
             while not (client.end or stop()) and (one := next(questions, None)):
-                waiting.append((one, threads.submit(ask_questions, client, config, one.questions, one.wanted)))
-                while waiting and (len(waiting) > _WAITING * concurrency or waiting[0][1].done()):
-                    yield take()
-        while waiting:
-            yield take()
+                room.acquire()
+                asked.append(threads.submit(ask, one))
+        return [future.result() for future in asked]
     finally:  # no more is asked; what is under way is kept when its answer comes, yet not waited for
         threads.shutdown(wait=False, cancel_futures=True)
 
@@ -145,64 +145,37 @@ def _propagate(
 
 @dataclass(slots=True)
 class VlmForecast:
-    """What asking would send. host, model: who is asked; every_hull: about every hull, or exemplars; key: the
-    environment variable of the key, empty where none is wanted, and whether it is set.
+    """What asking would send. assets, hulls: how many of them are asked about; pictures: that are sent; usage: how
+    many answers there would be, and have been, and about how many tokens and dollars those would take.
 
-    assets, hulls: how many of them are asked about; questions, of which `known` have their answers already; pictures,
-    input, output: what the others send, and tokens that this may come to; cost: their price [$], None where prices are
-    not known. unreadable: assets that cannot be read or drawn.
+    unreadable: assets that cannot be read or drawn.
     """
 
-    host: str
-    model: str
-    every_hull: bool
-    key: str
-    key_is_set: bool
+    usage: Usage
     assets: int = 0
     hulls: int = 0
-    questions: int = 0
-    known: int = 0
     pictures: int = 0
-    input: int = 0
-    output: int = 0
-    cost: float | None = None
     unreadable: tuple[str, ...] = ()
 
 
-def forecast_vlm(
-    store: Store,
-    settings: VlmSettings | None = None,
-    *,
-    progress: Callable[[], None] = lambda: None,
-    stop: Callable[[], bool] = lambda: False,
-    vocabulary: Sequence[str] | None = None,
-    execution: ExecutionOptions = IN_PROCESS,
-) -> VlmForecast:
-    """Return what `VlmLabeler` would send and what that costs, with nothing sent; vocabulary: one to try instead.
-
-    Questions that have to be asked again come on top of it.
-    """
-    settings = settings or store.settings.vlm
-    endpoint = Endpoint(settings)
-    config = PromptConfig(store.vocabulary if vocabulary is None else tuple(vocabulary), settings)
-    found = VlmForecast(endpoint.host, settings.model, settings.every_hull, endpoint.key_name, endpoint.has_key)
-    family = LabelFamily(store, config.vocabulary, execution, ignore_stage)
-    client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
+def forecast_vlm(family: LabelFamily, settings: VlmSettings) -> VlmForecast:
+    """Return what `VlmLabeler` would send and what that costs, with nothing sent."""
+    endpoint, config = Endpoint(settings), PromptConfig(family.require_vocabulary(), settings)
+    client, limiter = Client(endpoint, family.store.layout.vlm, max_cost=settings.max_cost), CostLimiter(endpoint)
     described, plans = plan_questions(family, config)
-    found.unreadable = tuple(described.lost) if described else ()
-    with closing(draw_questions(family, plans, config)) as drawn:
-        while not stop() and (one := next(drawn, None)):
+    found = VlmForecast(Usage(), unreadable=tuple(described.lost) if described else ())
+    with family.stage(len(plans), "drawing") as advance, closing(draw_questions(family, plans, config)) as drawn:
+        for one in drawn:
             found.unreadable += (*one.plan,) if one.error else ()  # `VlmLabeler` says then what is wrong
             found.assets += len({asset for asset, _ in one.wanted})
             found.hulls += len(one.wanted)
-            found.questions += len(one.questions)
-            fresh = [asked for asked in one.questions if not client.find_answer(asked.question)]
-            found.known += len(one.questions) - len(fresh)
-            found.pictures += sum(len(asked.question.digests) for asked in fresh)
-            found.input += sum(estimate_tokens(asked.question) for asked in fresh)
-            found.output += sum((asked.question.limit - settings.room) // 2 for asked in fresh)
-            for _ in one.plan:
-                progress()
-    if endpoint.is_priced:
-        found.cost = endpoint.price(TokenCount(found.input, found.output))
+            for question in (asked.question for asked in one.questions):
+                if client.find_answer(question):
+                    limiter.count(cached=1)
+                else:
+                    found.pictures += len([*question.pictures])
+                    made = (question.limit - settings.room) // 2
+                    limiter.charge(question, Reply("", output_tokens=made, estimated=True))
+            advance()
+    found.usage = limiter.usage
     return found

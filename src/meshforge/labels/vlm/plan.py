@@ -7,7 +7,7 @@ from functools import partial
 
 from meshforge import symbolic
 from meshforge.batch import WorkerFailure, execute
-from meshforge.common import AssetError, UsageError, describe_error
+from meshforge.common import AssetError, describe_error
 from meshforge.label_model import FamilyTable, choose_exemplars
 from meshforge.labels.family_comparison import FamilyDescription, describe_assets
 from meshforge.labels.labeler import LabelFamily
@@ -18,7 +18,7 @@ from meshforge.store import AssetFiles, Store, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES
 
 _QUESTIONS, _TOGETHER = 7, 3  # about exemplars at most, and assets in each
-_EXAMPLES = 2  # labelled assets that are shown at most, where the settings name none
+_EXAMPLES = 2  # labelled assets that are shown at most
 
 
 QuestionPlan = Mapping[str, Sequence[str]]
@@ -84,17 +84,11 @@ def _draw(config: PromptConfig, item: tuple[QuestionPlan, Sequence[AssetFiles]])
 
 
 def _find_examples(family: LabelFamily, config: PromptConfig) -> tuple[Message, ...]:
-    """The labelled assets that are shown: those that the settings name, or some of which every hull has a label of a
-    person or a file."""
+    """Some labelled assets that are shown: those of which every hull has a label of a person or a file."""
     store, found = family.store, list[Message]()
     labelled = (asset for asset, facts in family.iterate_facts() if _is_labelled(store, asset, facts.hulls))
-    for asset in config.settings.examples or [asset for _, asset in zip(range(_EXAMPLES), labelled, strict=False)]:
-        mesh = store.mesh(asset)
-        guessed = {hull.name: None for hull in mesh.hulls if hull.source not in GIVEN_SOURCES}
-        if len(guessed) == len(mesh.hulls):
-            remedy = "Label its hulls by hand, or take it out of examples in [vlm]."
-            raise UsageError("this example has no label that a person or a file gave", where=asset, remedy=remedy)
-        found += prompt.example_messages(asset, mesh.with_labels(guessed), config)
+    for asset, _ in zip(labelled, range(_EXAMPLES), strict=False):
+        found += prompt.example_messages(asset, store.mesh(asset), config)
     return tuple(found)
 
 

@@ -1,15 +1,15 @@
 """The questions about hulls of one mesh, or of several of a kind: which hulls in which pictures, and the words."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import UsageError
-from meshforge.labels.vlm.question import Message, Part, VlmQuestion
-from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
+from meshforge.labels.vlm.question import Message, Part, VlmQuestion, make_object_schema
+from meshforge.rendering import draw_labeling_pictures, encode_png, make_contact_sheet, up_axis
 from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
@@ -38,10 +38,10 @@ The labels are:
 {labels}
 - {unknown}: none of these, or it cannot be told from the pictures. Say this rather than guess.
 
-Answer with JSON only, with one entry for each number asked about, no other number, and labels spelled as above:
-{{"object": "what it is", "parts": ["its parts", ...], "hulls": [{{"number": 3, "label": "{example}"}}, ...]}}"""
+Answer with JSON only, with the label of each number asked about, no other number, and labels spelled as above:
+{{"object": "what it is", "parts": ["its parts", ...], "hulls": {{"3": "{example}", ...}}}}"""
 
-_BEFORE_TOKENS, _ENTRY_TOKENS = 150, 30  # tokens of an answer: before the labels, and for each hull, at most
+_BEFORE_TOKENS, _ENTRY_TOKENS = 150, 15  # tokens of an answer: before the labels, and for each hull, at most
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +56,6 @@ class PromptConfig:
     examples: tuple[Message, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.vocabulary:
-            raise UsageError("the vocabulary is empty", remedy="Say first what hulls can be: --vocabulary a,b,c.")
         unrecognised = next((label for label in self.settings.descriptions if label not in self.vocabulary), None)
         if unrecognised is not None:
             raise UsageError(f"the label {unrecognised!r} is described, but is not in the vocabulary")
@@ -86,7 +84,7 @@ class HullQuestion:
 
 
 def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[HullQuestion, ...]:
-    """Return the question about hulls of some meshes, once for each repeat; of one with very many hulls several."""
+    """Return the question about hulls of some meshes; of one with very many hulls several."""
     first, *more = meshes
     if not more and len(first.hulls) > _MOST_HULLS:
         groups = (replace(first, hulls=hulls) for hulls in _split(first.hulls, _MOST_HULLS))
@@ -94,8 +92,7 @@ def build_questions(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[
     pictures, hulls = _show_meshes(meshes, config)
     messages = _task_message(config, f"+{up_axis(first.mesh)}"), *config.examples, pictures
     limit = config.settings.room + _BEFORE_TOKENS + _ENTRY_TOKENS * len(hulls)
-    question = VlmQuestion(messages, _answer_schema(config), limit)
-    return tuple(HullQuestion(replace(question, repeat=k), hulls) for k in range(config.settings.repeats))
+    return (HullQuestion(VlmQuestion(messages, _answer_schema(config, hulls), limit), hulls),)
 
 
 def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
@@ -106,10 +103,10 @@ def example_messages(name: str, mesh: SymbolicMesh, config: PromptConfig) -> tup
     if not few:
         return ()
     pictures, hulls = _show_meshes([MeshHulls(name, mesh, [mesh.hulls[k].name for k in few])], config)
-    rows = [{"number": number, "label": labels[k]} for number, k in zip(hulls, few, strict=True)]
+    rows = {str(number): labels[k] for number, k in zip(hulls, few, strict=True)}
     parts = [label for label in config.vocabulary if label in labels]
     answer = {"object": config.settings.about or "one of these objects", "parts": parts, "hulls": rows}
-    return pictures, Message.assistant(json.dumps(answer, ensure_ascii=False))
+    return pictures, Message("assistant", (json.dumps(answer, ensure_ascii=False),))
 
 
 def _show_meshes(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[Message, dict[int, HullKey]]:
@@ -126,20 +123,11 @@ def _show_meshes(meshes: Sequence[MeshHulls], config: PromptConfig) -> tuple[Mes
         shots = [s for own in rows for s in draw_labeling_pictures(asked.mesh, hulls=own, most=_VIEWS, size=size)]
         for k, shot in enumerate(shots):
             beside = "; beside it the object as it looks" if k == 0 else ""
-            parts += [f"Picture: {shot.name}{beside}.", encode_png(shot.marked if k else _join(shot))]
+            image = shot.marked if k else make_contact_sheet([shot.marked, shot.plain], columns=2)
+            parts += [f"Picture: {shot.name}{beside}.", encode_png(image)]
         parts.append("\n".join(_describe_hulls(asked.mesh, numbers, names=config.settings.names)))
     parts.append(f"Which part does each of these pieces belong to: {', '.join(map(str, hulls))}?")
-    return Message.user(*parts), hulls
-
-
-def _join(shot: LabelingPicture) -> Any:
-    """The numbered picture with the plain one at its right."""
-    from PIL import Image  # lazy: 0.01 s, only pictures need it
-
-    both = Image.new("RGB", (2 * shot.marked.width, shot.marked.height))
-    both.paste(shot.marked, (0, 0))
-    both.paste(shot.plain, (shot.marked.width, 0))
-    return both
+    return Message("user", tuple(parts)), hulls
 
 
 def _describe_hulls(mesh: SymbolicMesh, numbers: Mapping[str, int], *, names: bool) -> Iterator[str]:
@@ -170,19 +158,15 @@ def _task_message(config: PromptConfig, up: str) -> Message:
     labels = [f"- {word}: {_to_line(known[word])}" if word in known else f"- {word}" for word in words]
     about = f". The objects are: {_to_line(about)}" if about else ""
     text = _TASK.format(labels="\n".join(labels), unknown=config.unknown, up=up, about=about, example=words[0])
-    return Message.system(text)
+    return Message("system", (text,))
 
 
-def _answer_schema(config: PromptConfig) -> dict[str, Any]:
-    """What the object is and its parts come first, so that the labels follow from them."""
+def _answer_schema(config: PromptConfig, numbers: Iterable[int]) -> dict[str, Any]:
+    """What the object is and its parts come first, so that the labels follow from them; no number can be left out."""
     label = {"type": "string", "enum": [*config.vocabulary, config.unknown]}
-    row = _object_schema(number={"type": "integer"}, label=label)
+    hulls = make_object_schema(**{str(number): {"$ref": "#/$defs/label"} for number in numbers})
     parts = {"type": "array", "items": {"type": "string"}}
-    return _object_schema(object={"type": "string"}, parts=parts, hulls={"type": "array", "items": row})
-
-
-def _object_schema(**fields: Any) -> dict[str, Any]:
-    return {"type": "object", "properties": fields, "required": [*fields], "additionalProperties": False}
+    return make_object_schema(object={"type": "string"}, parts=parts, hulls=hulls) | {"$defs": {"label": label}}
 
 
 def _to_line(text: str) -> str:

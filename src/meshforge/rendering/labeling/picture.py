@@ -1,42 +1,35 @@
-"""One labelling picture, numbered, and the plain one under its camera; lit, with dark lines."""
+"""One labelling picture, numbered, and the plain one under its camera."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-import numpy.typing as npt
-
-from meshforge.geometry import Floats, Ints
-from meshforge.rendering.annotation import INK, LabelAnchor, count_pixels, font, shorten, text_width
+from meshforge.geometry import Ints
+from meshforge.rendering.annotation import count_pixels, text_width
 from meshforge.rendering.camera import Camera, View
-from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
-from meshforge.rendering.paint import LineStrengths, shade, trace_lines
-from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
-from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, neighbour_slices
+from meshforge.rendering.canvas import Canvas
+from meshforge.rendering.colors import HullColors
+from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
+from meshforge.rendering.paint import paint
+from meshforge.rendering.placement import TextSize, draw_texts, place_numbers
+from meshforge.rendering.raycast import DrawLayer
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-
-PagePixels = npt.NDArray[np.uint8]
-"""Pixels (h, w, 4): red, green, blue, and one to spare."""
-_INK = np.array([26, 31, 41], np.float32)
-_STRENGTH = np.array([0, 70, 215, 235], np.uint16)  # of no line, a crease, a border, a silhouette; of 255
-_FAINT_INK = 0.28  # of full ink, for hulls that are only hinted at
+_FINE = 2  # rays along each side of a pixel
+_HEIGHTS = (0.0265, 0.0225, 0.019)  # of numbers, as shares of a picture, the one liked best first
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class LabelingPicture:
     """One view of a mesh, for a model or a person to name its parts in.
 
     name: what is seen, in words, such as "front" or "hull 7 alone, from the front right, above".
     marked: each hull in its own colour, edges drawn, its number on it or beside it at the end of a line.
-    plain: the same camera and size without words: the visual mesh where the asset has one, else the hulls in one
-    material.
     visible_pixels: how many pixels of `marked` show each hull, by name, 0 for hidden ones and those drawn faintly; what
     is written over the drawing is not taken off.
     numbered: the hulls whose number stands on `marked`.
@@ -44,9 +37,14 @@ class LabelingPicture:
 
     name: str
     marked: Image
-    plain: Image
     visible_pixels: Mapping[str, int]
     numbered: frozenset[str]
+    draw_plain: Callable[[], Image]
+
+    @cached_property
+    def plain(self) -> Image:
+        """The same camera and size without numbers: the visual mesh where the asset has one, else plain hulls."""
+        return self.draw_plain()
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,99 +54,51 @@ class LabelingCanvas:
     subject: LabelingSubject
     size: int
 
-    @property
+    @cached_property
     def drawing_size(self) -> tuple[int, int]:
-        """Width and height that words leave to the drawing [px]."""
-        return self.size, self.size - head_height(self.size)
+        """Width and height that the name leaves to the drawing [px]."""
+        left, top, right, bottom = self._make_paper("front").room
+        return right - left, bottom - top
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
         """Return the picture of an arrangement from one side."""
-        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
-
-        name, frame = arrangement.describe(view), arrangement.view_frame
+        name, hulls = arrangement.describe(view), self.subject.mesh.hulls
         camera = arrangement.camera(view, self.drawing_size)
-        hits = cast_rays(arrangement.solid_scene, camera)
-        items, drawing = arrangement.hull_pixels(hits), self._trace_ink(hits)
-        faint = arrangement.cast_faint(camera)
-        if faint is not None:  # it shows where nothing else does
-            hint = np.where(hits.item < 0, self._trace_ink(faint) * _FAINT_INK, 0)
-            drawing = np.maximum(drawing, np.rint(hint).astype(np.uint8))
-        colors = self.subject.colors[list(arrangement.solid)]
-        marked = self._to_image(_draw_surfaces(hits, colors, frame, camera), drawing)
-        draw = ImageDraw.Draw(marked)
-        numbered = self._write_numbers(draw, arrangement, items, camera)
-        high = max(11, round(0.021 * self.size))
-        at = round(0.016 * self.size), head_height(self.size) / 2
-        draw.text(at, shorten(name, high, 0.96 * self.size), INK, font(high), "lm")
-        visual = arrangement.cast_visual(camera)
-        if visual is None:
-            plain = self._to_image(_draw_surfaces(hits, np.tile(NEUTRAL, (len(colors), 1)), frame, camera), drawing)
-        else:
-            pixels = _draw_surfaces(visual, self.subject.visuals[1], frame, camera)
-            plain = self._to_image(pixels, self._trace_ink(visual))
-        hulls = self.subject.mesh.hulls
+        marked, items = self._paint(name, arrangement, arrangement.layers, camera)
+        items = arrangement.find_hulls(items)
+        numbered = self._write_numbers(marked, items)
         seen = count_pixels(items, len(hulls)).tolist()
         visible = {hull.name: count for hull, count in zip(hulls, seen, strict=True)}
-        return LabelingPicture(name, marked, plain, visible, frozenset(hulls[k].name for k in numbered))
+        shown = frozenset(hulls[k].name for k in numbered)
+        return LabelingPicture(
+            name, marked, visible, shown, lambda: self._paint(name, arrangement, arrangement.plain_layers, camera)[0]
+        )
+
+    def _make_paper(self, name: str) -> Canvas:
+        return Canvas((self.size, self.size), "#FFFFFF", None, name, HullColors(self.subject.colors))
+
+    def _paint(
+        self, name: str, arrangement: Arrangement, layers: Sequence[DrawLayer], camera: Camera
+    ) -> tuple[Image, Ints]:
+        paper = self._make_paper(name)
+        pixels, items = paint(layers, arrangement.view_frame, camera, _FINE)
+        paper.paste_drawing(pixels, paper.room[:2])
+        return paper.image, items
 
     @cached_property
     def _number_sizes(self) -> dict[int, dict[int, TextSize]]:
-        """The room that each number takes, for the two heights [px] it may be written in."""
-        count = len(self.subject.wanted)
-        share = 0.0265 if count <= 45 else 0.0225 if count <= 90 else 0.019
-        heights = [max(11, round(part * share * self.size)) for part in (1.0, 0.8)]
+        """The room that each number takes, for the heights [px] it may be written in."""
+        heights = [max(11, round(share * self.size)) for share in _HEIGHTS]
         return {
             k: {high: (text_width(str(number), high) + 0.5 * high, 1.1 * high) for high in heights}
             for k, number in self.subject.wanted.items()
         }
 
-    def _trace_ink(self, hits: RayHits) -> LineStrengths:
-        """How much of each pixel (h, w) the lines of a drawing cover, of 255. Lines are soft."""
-        share: Any = _STRENGTH[trace_lines(hits, max(2, round(self.size / 512)))]
-        for axis in (0, 1):
-            mixed = 2 * share
-            here, there = neighbour_slices(axis)
-            mixed[here] += share[there]
-            mixed[there] += share[here]
-            share = mixed >> 2
-        return np.asarray(share, np.uint8)
+    def _write_numbers(self, image: Image, items: Ints) -> list[int]:
+        """Write the numbers of hulls, and return which have one."""
+        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-    def _to_image(self, pixels: PagePixels, ink: LineStrengths) -> Image:
-        """The picture of a page, dark lines over it, as much of them as `ink` (h, w) of 255 says."""
-        from PIL import Image  # lazy: 0.01 s, only pictures need it
-
-        at = np.flatnonzero(ink)
-        flat: Any = pixels.reshape(-1, 4)
-        below = flat[at, :3]
-        flat[at, :3] = np.rint(below + (_INK - below) * (ink.ravel()[at, None] * np.float32(1 / 255)))
-        whole = np.full((self.size, self.size, 4), 255, np.uint8)
-        whole[head_height(self.size) :] = pixels
-        return Image.frombuffer("RGBX", (self.size, self.size), whole, "raw", "RGBX", 0, 1).convert("RGB")
-
-    def _write_numbers(self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera) -> list[int]:
-        """Writes the numbers of hulls, and returns which have one: of one alone, be it too thin for rays, too."""
-        known: dict[int, LabelAnchor] = {}
-        if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST_PIXELS:
-            (alone,) = arrangement.solid
-            points = camera.to_pixels(arrangement.view_frame.to_unit(self.subject.render_meshes[alone].vertices))
-            column, row = points.mean(axis=0).round().astype(int).tolist()
-            known[alone] = LabelAnchor(column, row, 0.0)
-        places = place_numbers(items, self._number_sizes, known)
+        places = place_numbers(items, self._number_sizes)
         texts = {k: str(number) for k, number in self.subject.wanted.items()}
-        draw_texts(draw, places, texts, self.subject.colors, (0, head_height(self.size)))
+        draw_texts(ImageDraw.Draw(image), places, texts, self.subject.colors, (0, self.size - self.drawing_size[1]))
         return sorted(place.item for place in places)
-
-
-def head_height(size: int) -> int:
-    """Return the height of the line along the top, which says what is seen [px]."""
-    return round(0.045 * size)
-
-
-def _draw_surfaces(hits: RayHits, colors: Floats, view_frame: ViewFrame, camera: Camera) -> PagePixels:
-    """What the pixels show; colors: (k, 3), sRGB in 0..1, of the scene's things."""
-    scene = hits.scene
-    table = np.full((len(scene.item) + 1, 4), 255, np.uint8)
-    if len(scene.item):
-        bright = shade(np.asarray(colors, np.float64)[scene.item], scene.normals, camera, view_frame.upright)
-        table[:-1, :3] = np.rint(bright * 255)
-    return table[hits.triangle]

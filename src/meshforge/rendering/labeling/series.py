@@ -22,11 +22,9 @@ _WELL = 1 / 250  # the share of a picture from which on a hull is seen as well a
 _AGAIN = 0.25  # what a second good view of a hull is worth
 _WORTHLESS = 0.05  # a view that adds less than this a hull is not drawn
 
-LABELING_SIZES = range(256, 4097)
 _PREVIEW_PIXELS = 2.5  # pixels of a preview: fewer tell little
-_POOR_PIXELS = 10 * LEAST_PIXELS  # hulls that show fewer everywhere are drawn from close up, if pictures are left
 
-_NEAR = 0.12  # hulls this near each other, as a share of the diagonal, can share a picture from close up
+_NEAR = 0.12  # hulls this near the first, as a share of the diagonal, can share a picture from close up
 _ROOM = 1.2  # how much is seen about hulls from close up, as a share of their size
 _CLOSE = 0.6  # a picture is from close up if it holds at most this share of the whole
 _FEW = 0.85  # what a picture of some hulls only is worth beside one of all in place
@@ -41,26 +39,16 @@ def draw_labeling_pictures(
     from close up or alone among faint others. Hulls beside `hulls` are pale, without a number. All are orthographic.
 
     size: pixels along each side; up: the axis that points up, by default that of the mesh. Same input, same pictures.
-    Raises UsageError for hulls that are not there, and for an impossible number or size of pictures.
+    Raises UsageError for hulls that are not there.
     """
     names = mesh.index
     picked = names if hulls is None else hulls
-    _check_arguments(names, picked, most, size)
+    if unknown := sorted(set(picked) - set(names)):
+        raise UsageError(f"there is no hull {unknown[0]!r}", remedy=suggest_name(unknown[0], names))
     numbers = picked if isinstance(picked, Mapping) else names
     wanted = {k: numbers[name] for name, k in names.items() if name in set(picked)}
     subject = LabelingSubject(mesh, wanted, up_axis(mesh, up))
     return tuple(_PictureSeries(LabelingCanvas(subject, size)).run(most)) if picked else ()
-
-
-def _check_arguments(names: Mapping[str, int], picked: Collection[str], most: int, size: int) -> None:
-    unknown = sorted(set(picked) - set(names))
-    if unknown:
-        raise UsageError(f"there is no hull {unknown[0]!r}", remedy=suggest_name(unknown[0], names))
-    if most < 1:
-        raise UsageError(f"{most} pictures show nothing", remedy="Ask for one at least.")
-    if size not in LABELING_SIZES:
-        remedy = f"Sides go from {LABELING_SIZES.start} to {LABELING_SIZES.stop - 1}."
-        raise UsageError(f"pictures for labelling cannot be {size} pixels wide", remedy=remedy)
 
 
 class _PictureSeries:
@@ -72,30 +60,22 @@ class _PictureSeries:
         self._aspect = height / width
         self._least = max(2 * LEAST_PIXELS / (width * height), _PREVIEW_PIXELS / (PREVIEW_SIZE**2 * self._aspect))
         """The share of a picture from which on a hull is likely to be numbered, as far as a preview can tell."""
-        self._pictures: list[LabelingPicture] = []
-        self._clear: dict[int, int] = {}
-        """How many pixels show each hull that is numbered, at best."""
 
     def run(self, most: int) -> list[LabelingPicture]:
-        """Take the most telling views of the whole, then what shows hulls that are poorly seen, as long as that helps
-        and there are fewer than `most`, then what shows those that have no number yet."""
-        whole, wanted = Arrangement.in_place(self._subject), list(self._subject.wanted)
+        """Take the most telling views of the whole, then what shows the hulls that have no number yet."""
+        subject, whole, wanted = self._subject, Arrangement.in_place(self._subject), list(self._subject.wanted)
         quality = {view: self._measure(whole, view)[wanted] for view in VIEW_PREFERENCES}
-        for view in choose_views(quality, most):
-            self._keep(self._canvas.draw(whole, view))
-        while len(self._pictures) < most and (poor := [k for k in wanted if self._clear.get(k, 0) < _POOR_PIXELS]):
-            picture = self._draw_best(propose_arrangements(self._subject, poor), poor)
-            if not any(pixels >= _POOR_PIXELS for pixels in self._pixels_of_numbered(picture, poor)):
-                break
-            self._keep(picture)
-        lost: set[int] = set()
-        while left := [k for k in wanted if k not in self._clear and k not in lost]:
-            picture = self._draw_best(propose_arrangements(self._subject, left), left)
-            if not self._pixels_of_numbered(picture, left):
-                picture = self._draw_best([(isolate_hull(self._subject, left[0]), 1.0)], left[:1])
-                lost.add(left[0])
-            self._keep(picture)
-        return self._pictures
+        pictures = [self._canvas.draw(whole, view) for view in choose_views(quality, most)]
+        done = frozenset[str]().union(*(picture.numbered for picture in pictures))
+        while left := [k for k in wanted if subject.mesh.hulls[k].name not in done]:
+            picture = self._draw_best(propose_arrangements(subject, left), left)
+            if done.issuperset(picture.numbered):
+                alone = Arrangement(subject, (left[0],), subject.points_of(left[:1]), (left[0],))
+                picture = self._draw_best([(alone, 1.0)], left[:1])
+                done |= {subject.mesh.hulls[left[0]].name}
+            pictures.append(picture)
+            done |= picture.numbered
+        return pictures
 
     def _measure(self, arrangement: Arrangement, view: View) -> Floats:
         """How well each hull is seen (n,), from 0 to 1, by its share of a picture; not at all below the least."""
@@ -113,21 +93,13 @@ class _PictureSeries:
         _, arrangement, view = max(values, key=lambda row: row[0])
         return self._canvas.draw(arrangement, view)
 
-    def _pixels_of_numbered(self, picture: LabelingPicture, hulls: Iterable[int]) -> list[int]:
-        names = (self._subject.mesh.hulls[k].name for k in hulls)
-        return [picture.visible_pixels[name] for name in names if name in picture.numbered]
-
-    def _keep(self, picture: LabelingPicture) -> None:
-        self._pictures.append(picture)
-        for name in picture.numbered:
-            k = self._subject.mesh.index[name]
-            self._clear[k] = max(self._clear.get(k, 0), picture.visible_pixels[name])
-
 
 def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Iterator[tuple[Arrangement, float]]:
     """Yield ways to show hulls that are left, and how much each is liked."""
-    group = _group_near(subject, left)
-    box, whole = Aabb.of_points(subject.points_of(group)), Aabb.of_points(subject.points)
+    whole, (low, high) = Aabb.of_points(subject.points), (corner[list(left)] for corner in subject.mesh.corners)
+    gaps = np.maximum(low - high[0], low[0] - high).max(axis=1)  # to the first hull that is left
+    group = tuple(k for k, gap in zip(left, gaps, strict=True) if gap < _NEAR * whole.diagonal)
+    box = Aabb.of_points(subject.points_of(group))
     room = _ROOM * box.diagonal / 2
     seen = Aabb(np.maximum(box.min - room, whole.min), np.minimum(box.max + room, whole.max))
     is_close = 0 < seen.diagonal < _CLOSE * whole.diagonal
@@ -136,26 +108,6 @@ def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Itera
         yield Arrangement(subject, group, seen.corners, group), _FEW
     if not is_close or len(group) < len(left):
         yield Arrangement(subject, tuple(left), subject.points), _FEW
-
-
-def isolate_hull(subject: LabelingSubject, hull: int) -> Arrangement:
-    """Return one hull, as large as a picture can hold it."""
-    frame = subject.points_of([hull])
-    small = Aabb.of_points(frame).diagonal < _CLOSE * subject.diagonal
-    return Arrangement(subject, (hull,), frame, close=(hull,) if small else ())
-
-
-def _group_near(subject: LabelingSubject, left: Sequence[int]) -> tuple[int, ...]:
-    """The first hull that is left, and those that are near it, from one to the next."""
-    low, high = (corner[list(left)] for corner in subject.mesh.corners)
-    found = np.zeros(len(left), bool)
-    fresh = found.copy()
-    fresh[0] = True
-    while fresh.any():
-        found |= fresh
-        gaps = np.maximum(low[:, None] - high[None, found], low[None, found] - high[:, None]).max(axis=2)
-        fresh = ~found & (gaps.min(axis=1) < _NEAR * subject.diagonal)
-    return tuple(k for k, one in zip(left, found, strict=True) if one)
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:

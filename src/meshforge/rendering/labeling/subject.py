@@ -8,12 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
+from meshforge.common import join_names
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.annotation import count_pixels
-from meshforge.rendering.camera import Camera, Up, View, aim_camera, axes_of
+from meshforge.rendering.camera import Camera, Up, View, aim_camera
 from meshforge.rendering.colors import PALE, pick_distinct_colors, rgb
 from meshforge.rendering.picture import points_to_frame
-from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
+from meshforge.rendering.raycast import DrawLayer, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
@@ -32,6 +33,7 @@ _CLEAR = 0.05  # visuals this little opaque are not drawn
 
 PREVIEW_SIZE = 128
 """Pixels along the small pictures that tell what a view shows."""
+_FAINT = 0.15  # how much shows of what is drawn faintly
 _FAR = 30.0  # hulls this many times the frame away from it are not drawn: rays are too short for them
 _HULLS_NAMED = 6  # hulls that a name lists one by one
 
@@ -68,7 +70,7 @@ class LabelingSubject:
         colors = [NEUTRAL if s.rgba is None else np.clip(s.rgba[:3], 0, _LIGHTEST) for s in kept]
         if not kept and self.non_convex:
             every = [*self.render_meshes, *self.non_convex]
-            return every, np.tile(NEUTRAL, (len(every), 1))
+            return every, _paint_neutral(len(every))
         return [to_render_mesh(s) for s in kept], np.array(colors).reshape(-1, 3)
 
     @cached_property
@@ -79,19 +81,12 @@ class LabelingSubject:
 
     @cached_property
     def points(self) -> Floats:
-        """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
-        points = points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex])
-        along = np.concatenate([axes_of(view, self.up)[:2] for view in VIEW_WORDS]) @ points.T
-        kept: Floats = points[np.unique(np.concatenate([along.argmin(axis=1), along.argmax(axis=1)]))]
-        return kept
+        """The points (n, 3) [m] that a picture of the whole mesh holds."""
+        return points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex])
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """Return the corners (n, 3) [m] of some hulls."""
         return np.concatenate([self.render_meshes[k].vertices for k in hulls])
-
-    @cached_property
-    def diagonal(self) -> float:
-        return Aabb.of_points(self.points).diagonal
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,9 +115,8 @@ class Arrangement:
         return f"{words}, close up of {self._list_hulls(self.close)}" if self.close else words
 
     def _list_hulls(self, hulls: tuple[int, ...]) -> str:
-        texts = [str(self.subject.wanted.get(k, k)) for k in hulls[:_HULLS_NAMED]]
-        more = f" and {len(hulls) - len(texts)} more" if len(hulls) > len(texts) else ""
-        return f"{'hulls' if len(hulls) > 1 else 'hull'} {', '.join(texts)}{more}"
+        texts = [str(self.subject.wanted.get(k, k)) for k in hulls]
+        return f"{'hulls' if len(hulls) > 1 else 'hull'} {join_names(texts, _HULLS_NAMED)}"
 
     @cached_property
     def view_frame(self) -> ViewFrame:
@@ -135,48 +129,45 @@ class Arrangement:
         """Return the share (n,) of a small picture, `shape` times as high as wide, that shows each hull."""
         size = PREVIEW_SIZE, max(1, round(PREVIEW_SIZE * shape))
         hits = cast_rays(self._preview_scene, self.camera(view, size), (slice(0, size[0]), slice(0, size[1])))
-        items = self.hull_pixels(hits)
+        items = self.find_hulls(hits.item)
         return count_pixels(items, len(self.subject.render_meshes)) / items.size
 
-    def cast_faint(self, camera: Camera) -> RayHits | None:
-        """Return what the pixels show of the faint hulls and of what is no hull, None where there is neither."""
-        scene = self._faint_scene
-        return cast_rays(scene, camera) if len(scene.corners) else None
-
-    def cast_visual(self, camera: Camera) -> RayHits | None:
-        """Return what pixels show of the visual mesh; None without one, and where it would hide hulls drawn alone."""
-        if len(self.solid) < len(self.subject.render_meshes) or not self.subject.visuals[0]:
-            return None
-        return cast_rays(self._visual_scene, camera)
-
-    def hull_pixels(self, hits: RayHits) -> Ints:
-        """Return the index of the hull that each pixel (h, w) shows in full, -1 for none."""
-        whole = len(self.solid) == len(self.subject.render_meshes)
-        return hits.item if whole else np.append(np.array(self.solid, np.int64), -1)[hits.item]
-
-    def _build_scene(self, render_meshes: Sequence[RenderMesh]) -> RayScene:
-        return build_scene(render_meshes, self.view_frame.bounds.center, self.view_frame.unit)
+    def find_hulls(self, items: Ints) -> Ints:
+        """Return the index of the hull that each pixel (h, w) shows, given its place among the solid ones."""
+        return np.append(np.array(self.solid, np.int64), -1)[items]
 
     @cached_property
-    def solid_scene(self) -> RayScene:
-        """The hulls that are drawn in full."""
-        return self._build_scene([self.subject.render_meshes[k] for k in self.solid])
+    def layers(self) -> tuple[DrawLayer, DrawLayer]:
+        """The hulls that are drawn in full, and what is faint about them."""
+        return self._draw_solid(self.subject.colors[list(self.solid)]), self._faint
+
+    @cached_property
+    def plain_layers(self) -> tuple[DrawLayer, ...]:
+        """The visual mesh; without one, and where it would hide hulls drawn alone, the hulls in one material."""
+        if len(self.solid) == len(self.subject.render_meshes) and self.subject.visuals[0]:
+            return (DrawLayer(*self.subject.visuals),)
+        return self._draw_solid(_paint_neutral(len(self.solid))), self._faint
+
+    def _draw_solid(self, colors: Floats) -> DrawLayer:
+        return DrawLayer([self.subject.render_meshes[k] for k in self.solid], colors)
 
     @cached_property
     def _preview_scene(self) -> RayScene:
         """The solid hulls for previews from all sides, in which it is no matter which of two in one place is seen."""
-        return prepare_for_rays(self.solid_scene, None)
+        solid = self.layers[0].render_meshes
+        return prepare_for_rays(build_scene(solid, self.view_frame.bounds.center, self.view_frame.unit), None)
 
     @cached_property
-    def _visual_scene(self) -> RayScene:
-        return prepare_for_rays(self._build_scene(self.subject.visuals[0]), None)
-
-    @cached_property
-    def _faint_scene(self) -> RayScene:
+    def _faint(self) -> DrawLayer:
+        """The hulls that are near the picture and not solid, and what is no hull."""
         near, subject = self.view_frame.bounds, self.subject
         reach = _FAR * self.view_frame.unit
         others = sorted(set(range(len(subject.render_meshes))) - set(self.solid))
         low, high = subject.mesh.corners
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
         faint = [subject.render_meshes[k] for k in near_by] + subject.non_convex
-        return prepare_for_rays(self._build_scene(faint), None)
+        return DrawLayer(faint, _paint_neutral(len(faint)), before=_FAINT)
+
+
+def _paint_neutral(count: int) -> Floats:
+    return np.tile(NEUTRAL, (count, 1))

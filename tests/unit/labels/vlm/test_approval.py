@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import UsageError
-from meshforge.labels import Endpoint, VlmLabeler, approve_host, check_approved, is_approved
+from meshforge.labels import Endpoint, VlmLabeler, approve_host, check_approved
 from meshforge.labels.vlm import label_by_vlm
 from meshforge.project import Project
 from meshforge.store import VlmSettings
@@ -66,7 +66,8 @@ def test_an_approved_host_is_one_line_in_the_users_folder(project: Project, run:
     done = run("label", "p", "--with", "vlm")
     assert asked == [EVIL]
     assert f"the key in the environment variable {VARIABLE} are sent to evil.example" in done.err
-    assert not is_approved(endpoint("https://evil.example:8443/v1"))
+    with pytest.raises(UsageError, match=r"you have not approved evil\.example:8443"):
+        check_approved(endpoint("https://evil.example:8443/v1"))
 
 
 def test_an_approval_in_the_project_counts_for_nothing(project: Project, run: Run, asked: list[str]) -> None:
@@ -80,7 +81,7 @@ def test_an_approval_in_the_project_counts_for_nothing(project: Project, run: Ru
 def test_an_address_that_is_typed_is_approved_for_that_run(project: Project, run: Run, asked: list[str]) -> None:
     _lead_to(project, "https://other.example/v1")
     run("label", "p", "--with", "vlm", "--base-url", EVIL)
-    assert asked == [EVIL] and not is_approved(endpoint(EVIL))
+    assert asked == [EVIL] and not Path(APPROVALS).exists()
 
 
 @pytest.mark.parametrize("key", ["AWS_SECRET", "HOME", "API_KEY_OF_MINE"])

@@ -1,8 +1,6 @@
 from __future__ import annotations
 
-import itertools
 import json
-import subprocess
 import sys
 import threading
 from collections.abc import Callable
@@ -13,10 +11,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import UsageError
-from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import EndError, QuestionError, RefusalError, TokenCount
-from meshforge.labels.vlm.question import Reply
-from tests.loopback import DROP, FAULTS, GARBAGE, SLOW, Asked, Fault, serving, status
+from meshforge.labels.vlm.endpoint import EndError, QuestionError, RefusalError
+from tests.loopback import FAULTS, GARBAGE, Asked, Fault, serving, status
 from tests.unit.labels.vlm.asking import SCHEMA, VARIABLE, client, endpoint, key, question
 
 __all__ = ["key"]
@@ -34,12 +30,12 @@ def test_an_answer_is_counted_and_kept_and_not_asked_for_again(tmp_path: Path) -
     with serving(lambda asked: "leg") as server:
         one = client(server, tmp_path, input_price=2.0, output_price=10.0)
         reply = one.ask(question())
-        assert (reply.text, reply.cached) == ("leg", False)
-        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
+        assert reply.text == "leg"
+        assert (one.usage.input, one.usage.output) == (server.usage["input"], server.usage["output"])
         assert one.usage.cost == pytest.approx((2 * server.usage["input"] + 10 * server.usage["output"]) / 1e6)
         again = client(server, tmp_path, input_price=2.0, output_price=10.0)
         known = again.ask(question())
-        assert (known.text, known.cached, known.usage, known.cost) == ("leg", True, reply.usage, reply.cost)
+        assert known == reply
         assert (again.usage.cached, again.usage.answered, again.usage.cost) == (1, 0, 0.0)
         assert len(server.answered) == 1
 
@@ -60,16 +56,6 @@ def test_what_the_server_refuses_is_not_asked_of_it(schema: str, thinks: bool) -
         assert asked.body.get("temperature", 0) == 0
 
 
-def test_a_server_is_probed_once_even_by_many_at_one_time(tmp_path: Path) -> None:
-    with serving(lambda asked: "leg", delay=0.02) as server:
-        one = client(server, tmp_path, concurrency=8)
-        with ThreadPoolExecutor(8) as pool:
-            list(pool.map(one.ask, [question(str(k)) for k in range(8)]))
-        assert sum(asked.is_probe for asked, _, _ in server.asked) == 1
-        client(server, tmp_path, extra={"top_k": 1}).ask(question())
-        assert server.answered[-1].body["top_k"] == 1
-
-
 def test_pictures_arrive_as_they_are_and_are_kept_beside_the_answer(tmp_path: Path) -> None:
     from PIL import Image
 
@@ -86,18 +72,19 @@ def test_pictures_arrive_as_they_are_and_are_kept_beside_the_answer(tmp_path: Pa
     (answer,) = (tmp_path / "answers").iterdir()
     data = json.loads(answer.read_text())
     assert data["answered"]["text"] == "leg"
-    assert [part["picture"] for part in data["asked"]["messages"][1]["parts"][1:]] == list(asked.digests)
+    names = [part["image_url"]["url"] for part in data["asked"]["messages"][1]["content"][1:]]
+    assert [(tmp_path / "pictures" / f"{name}.png").read_bytes() for name in names] == pictures
 
 
 @pytest.mark.parametrize("fault", PASSING, ids=lambda fault: f"{fault.kind} {fault.code}")
 def test_faults_that_pass_are_tried_again_and_cost_nothing(fault: Fault) -> None:
-    with serving(lambda asked: "leg", fault=first(fault, fault), slow=0.4) as server:
-        one = client(server, timeout=0.2, input_price=1.0, output_price=1.0)
+    with serving(lambda asked: "leg", fault=first(fault, fault), slow=1.0) as server:
+        one = client(server, timeout=0.5, input_price=1.0, output_price=1.0)
         assert one.ask(question()).text == "leg"
         assert (one.usage.retries, one.usage.answered) == (2, 2)
-        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
+        assert (one.usage.input, one.usage.output) == (server.usage["input"], server.usage["output"])
         lost = fault.kind != "status"
-        assert (one.usage.lost, one.usage.perhaps > 0) == (2 * lost, lost)
+        assert (one.usage.perhaps > 0) == lost
 
 
 def test_a_question_that_gets_no_answer_does_not_end_the_others() -> None:
@@ -106,7 +93,7 @@ def test_a_question_that_gets_no_answer_does_not_end_the_others() -> None:
 
     with serving(lambda asked: "leg", fault=fault) as server:
         one = client(server, retries=2)
-        with pytest.raises(QuestionError, match="no answer after 3 attempts, the last: 500: out of order"):
+        with pytest.raises(QuestionError, match="no answer: 500: out of order"):
             one.ask(question("hard"))
         assert one.end is None
         assert one.ask(question("easy")).text == "leg"
@@ -121,7 +108,7 @@ def test_when_nobody_answers_any_more_the_asking_ends() -> None:
                 one.ask(question(str(k)))
             ends += isinstance(raised.value, EndError)
         assert ends == 4
-        assert one.end and "several questions in a row got no answer after 2 attempts" in one.end.message
+        assert one.end and "several questions in a row got no answer, the last: 503" in one.end.message
         assert sum(not asked.is_probe for asked, _, _ in server.asked) == 2 * 5
 
 
@@ -239,7 +226,6 @@ def test_an_address_that_cannot_be_is_told_without_its_secrets(url: str, message
 def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path) -> None:
     with serving(lambda asked: "leg", delay=0.1) as server:
         one = client(server, tmp_path, concurrency=4)
-        one.probe()
         together = threading.Barrier(4)
 
         def ask(_: int) -> str:
@@ -248,15 +234,8 @@ def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path) -> None:
 
         with ThreadPoolExecutor(4) as pool:
             assert set(pool.map(ask, range(4))) == {"leg"}
-        assert len(server.answered) == 1
+        assert len(server.answered) == 1 and sum(asked.is_probe for asked, _, _ in server.asked) == 1
         assert (one.usage.answered, one.usage.cached) == (2, 3)  # the question about the red picture is one, too
-
-
-def test_repeats_are_told_apart(tmp_path: Path) -> None:
-    with serving(lambda asked: str(asked.time)) as server:
-        one = client(server, tmp_path)
-        texts = [one.ask(question(repeat=k)).text for k in (0, 1, 2, 1)]
-        assert texts == ["0", "1", "2", "1"]
 
 
 DAMAGES: dict[str, Callable[[str], str]] = {
@@ -281,37 +260,23 @@ def test_a_damaged_answer_is_asked_for_again(tmp_path: Path, damage: str) -> Non
         assert path.read_text() == whole
 
 
-def test_an_answer_of_an_earlier_version_is_read(tmp_path: Path) -> None:
-    """The digest of a question, and how its answer was kept with the chances of its tokens."""
-    made = replace(question("Look.", b"picture", schema=SCHEMA), repeat=2)
-    one = Client(endpoint("https://me.example/v1"), tmp_path)
-    digest = "42edb4e1914cb76ddd003c11e9fcc38d"
-    assert made.digest(one.endpoint) == digest
-    kept = {"text": "leg", "finish": "stop", "input_tokens": 7, "output_tokens": 2, "cost": 0.5}
-    (tmp_path / "answers").mkdir()
-    (tmp_path / "answers" / f"{digest}.json").write_text(json.dumps({"answered": kept, "tokens": [["leg", 0.5]]}))
-    assert one.find_answer(made) == Reply("leg", "stop", TokenCount(7, 2), 0.5, cached=True)
-
-
 def test_a_server_that_tells_no_tokens_is_told_to_be_estimated() -> None:
     with serving(lambda asked: "leg", tells=False) as server:
         one = client(server)
         one.ask(question("word " * 300))
-        assert one.usage.usage.estimated
-        assert 300 < one.usage.usage.input < 3000
+        assert one.usage.estimated
+        assert 300 < one.usage.input < 3000
 
 
-def test_a_stop_ends_the_asking_before_and_between_attempts() -> None:
-    asked_for = itertools.count()
-    with serving(lambda asked: "leg", fault=first(*[DROP] * 100)) as server:
-        one = client(server, stop=lambda: next(asked_for) > 3)
+def test_a_stop_ends_the_asking() -> None:
+    wanted: list[bool] = []
+    with serving(lambda asked: "leg") as server:
+        one = client(server, stop=lambda: bool(wanted))
+        one.ask(question())
+        wanted.append(True)
         with pytest.raises(EndError, match=r"stopped\n  What was answered is kept"):
-            one.ask(question())
-        assert 1 <= sum(not asked.is_probe for asked, _, _ in server.asked) <= 3
-        before = len(server.asked)
-        with pytest.raises(EndError, match="stopped"):
             one.ask(question("another"))
-        assert len(server.asked) == before
+        assert len(server.answered) == 1
 
 
 def test_garbage_that_tells_what_it_cost_is_counted_and_not_asked_for_again() -> None:
@@ -324,29 +289,16 @@ def test_garbage_that_tells_what_it_cost_is_counted_and_not_asked_for_again() ->
 
         server._completion = completion  # type: ignore[method-assign]
         one = client(server)
-        with pytest.raises(QuestionError, match=r"after 1 attempt, the last: .* something that is no answer"):
+        with pytest.raises(QuestionError, match=r"no answer: .* something that is no answer"):
             one.ask(question())
-        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
-        assert (one.usage.retries, one.usage.lost) == (0, 0)
+        assert (one.usage.input, one.usage.output) == (server.usage["input"], server.usage["output"])
+        assert (one.usage.retries, one.usage.perhaps) == (0, 0)
 
 
 def test_without_the_sdk_the_message_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     with serving(lambda asked: "leg") as server, pytest.raises(EndError, match=r"pip install 'meshforge\[vlm\]'"):
         monkeypatch.setitem(sys.modules, "openai", None)
         client(server).ask(question())
-
-
-@pytest.mark.slow
-def test_nothing_heavy_is_loaded_before_something_is_asked() -> None:
-    code = "import sys, meshforge.labels.vlm.client, meshforge.project; print({'openai', 'PIL'} & sys.modules.keys())"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "set()"
-
-
-def test_a_slow_answer_is_told_as_such() -> None:
-    serve = serving(lambda asked: "leg", fault=first(SLOW, SLOW), slow=0.4)
-    with serve as server, pytest.raises(QuestionError, match=r"no answer within 0\.2 seconds"):
-        client(server, retries=1, timeout=0.2).ask(question())
 
 
 @pytest.mark.parametrize("kind", ["application/json", "text/html"])

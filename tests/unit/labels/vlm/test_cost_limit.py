@@ -53,14 +53,13 @@ def test_no_more_is_spent_than_may_be(tmp_path: Path, most: float, concurrency: 
         assert len(server.answered) == 40  # nothing was asked twice
 
 
-def test_with_faults_the_limit_holds_even_if_lost_attempts_are_charged(tmp_path: Path) -> None:
+def test_with_faults_attempts_without_answer_count_as_if_they_were_charged_for(tmp_path: Path) -> None:
     with serving(lambda asked: "leg " * 60, fault=sometimes(0.3, FAULTS), slow=0.3) as server:
         one = client(server, tmp_path, max_cost=12.0, concurrency=4, timeout=0.15, **PRICES)
         ask_all(one, 60)
         bill = one.usage
-        assert bill.cost == pytest.approx(spent(server))
-        assert bill.cost is not None and bill.cost + bill.perhaps <= 12.0
-        assert bill.lost > 0
+        assert bill.cost is not None and bill.cost <= 12.0 and bill.perhaps > 0
+        assert bill.cost <= spent(server) + 1e-9 <= bill.cost + bill.perhaps
 
 
 def test_other_questions_under_way_are_waited_for_and_do_not_end_it(tmp_path: Path) -> None:
@@ -74,11 +73,3 @@ def test_other_questions_under_way_are_waited_for_and_do_not_end_it(tmp_path: Pa
 def test_a_limit_without_prices_is_refused() -> None:
     with pytest.raises(UsageError, match="a limit on the cost needs to know the prices"):
         Client(endpoint("http://localhost/v1"), max_cost=1.0)
-
-
-def test_without_prices_tokens_are_counted_and_no_cost_is_told() -> None:
-    with serving(lambda asked: "leg") as server:
-        one = client(server)
-        one.ask(question())
-        assert one.usage.cost is None
-        assert one.usage.usage.input == server.usage["input"]

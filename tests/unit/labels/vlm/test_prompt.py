@@ -86,64 +86,19 @@ def true_names(shown: SymbolicMesh) -> dict[str, str]:
     return dict(zip(shown.index, truth(shown).values(), strict=True))
 
 
-def test_a_right_model_labels_all_and_surer_with_more_repeats() -> None:
-    shown, sure = table(), list[float]()
-    for repeats in (1, 5):
-        with labelling(right(shown), repeats=repeats) as (ask, server):
-            said = ask(shown, "t")
-        assert names(said) == true_names(shown)
-        assert (left(said), said.failed) == ({}, ())
-        assert {label.source for label in said.labels["t"].values()} == {"vlm"}
-        assert len(server.answered) == repeats
-        assert all(asked.body["temperature"] == 0 for asked in server.answered)
-        sure.append(min(label.confidence for label in said.labels["t"].values()))
-    assert 0.3 < sure[0] < sure[1] < 1
-
-
-def test_what_is_out_of_the_vocabulary_or_missing_is_asked_once_more() -> None:
+def test_what_is_out_of_the_vocabulary_missing_or_cut_off_is_left_open_with_the_reason() -> None:
     shown = table()
-
-    def lying(asked: Asked) -> str:
-        if asked.is_again:
-            assert asked.numbers == (0, 2, 5)
-            assert '("wheel" is no label)' in asked.text
-            return labels_as_json({0: "top", 2: "leg", 5: "hub"})
-        return labels_as_json({0: "wheel", 1: "leg", 3: "leg", 4: "leg", 99: "leg", 5: "wheel"})
-
-    with labelling(lying) as (ask, server):
+    lying = labels_as_json({0: "wheel", 1: "leg", 3: "leg", 4: "leg", 99: "leg"})
+    with labelling(lambda asked: lying) as (ask, server):
         said = ask(shown)
-        assert names(said) == {"top": "top", "leg0": "leg", "leg1": "leg", "leg2": "leg", "leg3": "leg"}
-        assert left(said) == {"crumb": "the model said hub, which is no label"}
-        assert len(server.answered) == 2
-        again = server.answered[1]
-        assert [message["role"] for message in again.body["messages"]] == ["system", "user", "assistant", "user"]
-
-
-@pytest.mark.parametrize("nonsense", ["", "I am only a language model.", '{"hulls": [{"number": 0, "label": 7}]}'])
-def test_a_model_that_says_nothing_usable_is_asked_twice_and_leaves_all_open(nonsense: str) -> None:
-    shown = table()
-    with labelling(lambda asked: nonsense) as (ask, server):
-        said = ask(shown)
-        assert names(said) == {}
-        assert left(said) == dict.fromkeys(shown.index, "the model said nothing usable of it")
-        assert len(server.answered) == 2
-
-
-def test_an_answer_that_is_cut_off_is_used_as_far_as_it_goes_and_has_more_room_the_next_time() -> None:
-    shown = table()
-
-    def fault(asked: Asked) -> object:
-        return None if asked.is_probe or asked.is_again else CUT
-
-    with labelling(right(shown), fault=fault) as (ask, server):
-        said = ask(shown)
-        assert names(said) == true_names(shown)
-        first, second = server.answered
-        assert second.body["max_tokens"] == 2 * first.body["max_tokens"]
-        assert 0 < len(second.numbers) < len(first.numbers)
+        assert names(said) == {"leg0": "leg", "leg2": "leg", "leg3": "leg"}
+        nothing = "the model said nothing usable of it"
+        assert left(said) == {"top": "the model said wheel, which is no label", "leg1": nothing, "crumb": nothing}
+        assert len(server.answered) == 1
     with labelling(right(shown), fault=lambda asked: None if asked.is_probe else CUT) as (ask, server):
         said = ask(shown)
-        assert set(left(said).values()) == {"the answer was cut off"}
+        assert set(left(said).values()) == {"the answer was cut off: raise room in [vlm]"}
+        assert names(said).items() < true_names(shown).items()
         assert names(said).keys() | left(said).keys() == shown.index.keys()
 
 
@@ -161,7 +116,9 @@ def test_a_vocabulary_with_the_word_unknown_has_another_word_for_not_knowing() -
 def test_no_picture_has_more_than_twelve_colours_and_one_question_all_hulls() -> None:
     shown = table(legs=30)
     with labelling(right(shown)) as (ask, server):
-        assert names(ask(shown)) == true_names(shown)
+        said = ask(shown)
+        assert names(said) == true_names(shown) and not said.open and not said.failed
+        assert {(label.source, label.confidence) for label in said.labels[""].values()} == {("vlm", 0.71)}
         (asked,) = server.answered
         assert asked.numbers == tuple(range(32))
     with patch("meshforge.labels.vlm.prompt.draw_labeling_pictures", wraps=draw_labeling_pictures) as drawn:
@@ -176,7 +133,7 @@ def test_hulls_of_several_meshes_have_numbers_of_their_own_and_the_object_stands
     assert "This is object 2.\nPicture:" in one.question.text
     assert "2: size 4 x 30 x 91, at 16, 19, 45; touches 1 without number\n3: size" in one.question.text
     sizes = [Image.open(BytesIO(picture)).size for picture in one.question.pictures]
-    assert sizes.count((2 * SMALL, SMALL)) == 3 and set(sizes) == {(2 * SMALL, SMALL), (SMALL, SMALL)}
+    assert sum(width > 2 * SMALL for width, _ in sizes) == 3 and sizes.count((SMALL, SMALL)) == len(sizes) - 3
 
 
 @pytest.mark.slow
@@ -192,7 +149,7 @@ def test_a_question_without_answer_leaves_its_hulls_open_and_the_others_are_labe
         assert set(left(said).values()) == {"the question got no answer"}
         assert 0 < len(names(said)) < 132
         (complaint,) = said.failed
-        assert "no answer after 2 attempts, the last: 500: out of order" in complaint
+        assert "no answer: 500: out of order" in complaint
 
 
 def test_examples_are_shown_with_their_answers() -> None:
@@ -204,7 +161,7 @@ def test_examples_are_shown_with_their_answers() -> None:
         assert [message["role"] for message in messages] == ["system", "user", "assistant", "user"]
         rows = json.loads(messages[2]["content"])
         assert rows["parts"] == ["top", "leg", "crumb"]
-        assert [row["label"] for row in rows["hulls"]] == ["top", "leg", "leg", "leg", "crumb"]
+        assert rows["hulls"] == {"0": "top", "2": "leg", "3": "leg", "4": "leg", "5": "crumb"}
         assert "belong to: 0, 2, 3, 4, 5?" in server.answered[0].text
         assert server.answered[0].numbers == tuple(range(7))
 
@@ -229,4 +186,5 @@ def test_the_words_of_a_question_are_as_agreed() -> None:
     assert text + "\n" == (Path(__file__).parent / "question.txt").read_text(encoding="utf-8")
     assert form is not None
     assert [*form["properties"]] == ["object", "parts", "hulls"]
-    assert form["properties"]["hulls"]["items"]["properties"]["label"]["enum"] == [*WORDS, "unknown"]
+    assert form["properties"]["hulls"]["required"] == [str(number) for number in range(6)]
+    assert form["$defs"]["label"]["enum"] == [*WORDS, "unknown"]
