@@ -8,6 +8,7 @@ import { useProject } from "../store/project";
 import { reportError, useToasts } from "../store/toasts";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
+import { JobLines } from "../ui/JobProgress";
 import { ThemeMenu } from "../ui/ThemeMenu";
 import { Wordmark } from "../ui/Wordmark";
 import type { Job } from "../wire";
@@ -156,16 +157,7 @@ function JobRow({ job }: { job: Job }) {
         <progress value={job.total ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
       )}
       {job.message && <p className={css.message}>{job.message}</p>}
-      {job.lines.length > 0 && (
-        <ul className={css.lines} tabIndex={0} aria-label="Results by asset">
-          {job.lines.map((line) => (
-            <li key={line.asset} data-status={line.status}>
-              <b>{line.asset}</b> {line.status}
-              {[line.text, ...line.before].filter(Boolean).map((text, k) => `${k ? "; " : ": "}${text}`)}
-            </li>
-          ))}
-        </ul>
-      )}
+      <JobLines lines={job.lines} />
     </li>
   );
 }

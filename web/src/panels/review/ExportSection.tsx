@@ -12,7 +12,7 @@ import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
 import { useCalled } from "../../ui/useCalled";
 import type { Job } from "../../wire";
-import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import css from "./review.module.css";
 
 type What = "signed" | "all";

@@ -16,7 +16,7 @@ import type { Argument, ExtractorSuggestion, GoalCall, GoalView, Job, Operator }
 import { Field } from "../demonstrate/ArgumentField";
 import { EnlargeablePicture } from "./CheckPictures";
 import css from "./goals.module.css";
-import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import review from "./review.module.css";
 
 export function GoalForm({ draft }: { draft: GoalDraft }) {
