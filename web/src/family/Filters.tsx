@@ -4,7 +4,7 @@ import { type Filters as FiltersState, type LayoutState, setFilters, setLayout, 
 import { countByFilter, FILTERS } from "../store/family";
 import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
-import { Menu } from "../ui/Menu";
+import { choiceLines, Menu } from "../ui/Menu";
 import { ICONS } from "./Card";
 import { MEANINGS } from "./cardText";
 import css from "./family.module.css";
@@ -51,17 +51,11 @@ function SearchField() {
       {search && <IconButton icon={X} name="Clear" onClick={() => setFilters({ search: "" })} />}
       <Menu
         trigger={<IconButton icon={ArrowDownUp} name={`Order: ${SORTS[sort].toLowerCase()}`} />}
-        lines={Object.entries(SORTS).map(([value, label]) => ({
-          label: value === sort ? `✓ ${label}` : label,
-          onSelect: () => setFilters({ sort: value as FiltersState["sort"], chosen: true }),
-        }))}
+        lines={choiceLines(SORTS, sort, (value) => setFilters({ sort: value, chosen: true }))}
       />
       <Menu
         trigger={<IconButton icon={Images} name={SIZES[thumbnails]} />}
-        lines={Object.entries(SIZES).map(([value, label]) => ({
-          label: value === thumbnails ? `✓ ${label}` : label,
-          onSelect: () => setLayout({ thumbnails: value as LayoutState["thumbnails"] }),
-        }))}
+        lines={choiceLines(SIZES, thumbnails, (value) => setLayout({ thumbnails: value }))}
       />
     </div>
   );

@@ -10,7 +10,7 @@ import { useStart } from "../store/start";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Viewport } from "../viewport/Viewport";
 import css from "./App.module.css";
-import { Divider } from "./Divider";
+import { Divider } from "../ui/Divider";
 import { Help } from "./Help";
 import empty from "./nothing.module.css";
 import { Palette } from "./Palette";

@@ -2,7 +2,7 @@
 import { Monitor, Moon, Sun } from "lucide-react";
 import { useWorkspace, type WorkspaceState } from "../store/workspace";
 import { IconButton } from "./Button";
-import { Menu } from "./Menu";
+import { choiceLines, Menu } from "./Menu";
 
 type Theme = WorkspaceState["theme"];
 const THEME_NAMES: Readonly<Record<Theme, string>> = { light: "Light", dark: "Dark", system: "Like the system" };
@@ -14,10 +14,7 @@ export function ThemeMenu() {
   return (
     <Menu
       trigger={<IconButton icon={ICONS[theme]} name={`Theme: ${THEME_NAMES[theme].toLowerCase()}`} />}
-      lines={(["light", "dark", "system"] as const).map((value) => ({
-        label: value === theme ? `✓ ${THEME_NAMES[value]}` : THEME_NAMES[value],
-        onSelect: () => useWorkspace.setState({ theme: value }),
-      }))}
+      lines={choiceLines(THEME_NAMES, theme, (value) => useWorkspace.setState({ theme: value }))}
     />
   );
 }

@@ -18,7 +18,7 @@ import { figureText, textIn } from "../../store/units";
 import { countText, toSentence } from "../../store/words";
 import { setChecks, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
-import { Menu } from "../../ui/Menu";
+import { choiceLines, Menu } from "../../ui/Menu";
 import { Note } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
 import type { CheckResult, Figure, Problem } from "../../wire";
@@ -166,10 +166,7 @@ function EngineMenu() {
           <ChevronDown size={13} aria-hidden />
         </Button>
       }
-      lines={Object.entries({ "": "No engine", ...engines }).map(([name, text]) => ({
-        label: name === engine ? `✓ ${text}` : text,
-        onSelect: () => setChecks({ engine: name }),
-      }))}
+      lines={choiceLines<string>({ "": "No engine", ...engines }, engine, (name) => setChecks({ engine: name }))}
     />
   );
 }
