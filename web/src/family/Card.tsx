@@ -30,7 +30,7 @@ import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import type { Card as CardData } from "../wire";
 import css from "./card.module.css";
-import { type Badge, badgesOf, cardText, fitBadges, hullsText } from "./cardText";
+import { type Badge, badgesOf, cardText, fitBadges } from "./cardText";
 
 interface CardProps {
   asset: string;
@@ -124,22 +124,13 @@ function Face({ card, large, selected }: FaceProps) {
   const edited = results && card.edited_picture !== null && card.output !== "failed";
   const showing = edited && !(large && over) ? "output" : "source";
   if (card.hulls === null) return <div className={css.skeleton} aria-hidden />;
-  if (card.hulls === 0 && card.sources > 0 && card.picture === null) {
-    return (
-      <div className={css.bare}>
-        <MakeHulls asset={card.asset} />
-      </div>
-    );
-  }
+  const makes = card.hulls === 0 && card.sources > 0 && <MakeHulls asset={card.asset} />;
+  if (makes && card.picture === null) return <div className={css.bare}>{makes}</div>;
   return (
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
       {marked && isKnown && card.hulls > 0 && <span className={css.marked} aria-hidden>{marked.length}</span>}
-      {card.hulls === 0 && card.sources > 0 && (
-        <span className={css.over}>
-          <MakeHulls asset={card.asset} />
-        </span>
-      )}
+      {makes && <span className={css.over}>{makes}</span>}
       {large && edited && <span className={css.which} aria-hidden>{showing === "output" ? "after" : "before"}</span>}
     </div>
   );
@@ -149,7 +140,7 @@ const NONE: readonly number[] = [];
 
 function Amount({ card }: { card: CardData }) {
   if (card.hulls === null) return <span className={css.amount}>{card.error === null ? "reading…" : "unreadable"}</span>;
-  if (card.after === null || card.output === "none") return <span className={css.amount}>{hullsText(card.hulls)}</span>;
+  if (card.after === null || card.output === "none") return <span className={css.amount}>{countText(card.hulls, "hull")}</span>;
   return (
     <span className={css.amount}>
       {card.hulls} → {card.after}

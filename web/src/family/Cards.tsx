@@ -22,7 +22,7 @@ const WIDTHS = {
 } as const;
 
 /** large: in place of the view, where the picture tells whether it is of before or after. */
-export function Cards({ large = false }: { large?: boolean }) {
+export function Cards({ large }: { large: boolean }) {
   const size = useLayout((layout) => layout.thumbnails);
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();

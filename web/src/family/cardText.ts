@@ -2,10 +2,9 @@
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
 import { flagsOf } from "../store/goals";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
+import { countText } from "../store/words";
 import type { FilterName } from "../store/workspace";
 import type { Card } from "../wire";
-
-export const hullsText = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);
 
 export interface Badge {
   name: FilterName | "corrected";
@@ -45,19 +44,13 @@ export function badgesOf(card: Card, engine = "", isBare = false): readonly Badg
     matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
-    corrections > 0 && countBadge("corrected", corrections, "edit by hand", "edits by hand"),
+    corrections > 0 && { name: "corrected", count: corrections, text: countText(corrections, "edit by hand", "edits by hand") },
     output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
-    unsure > 0 && countBadge("unsure", unsure, "label is not sure", "labels are not sure"),
-    bare > 0 && countBadge("unlabelled", bare, "hull has no label", "hulls have no label"),
+    unsure > 0 && { name: "unsure", count: unsure, text: countText(unsure, "label is not sure", "labels are not sure") },
+    bare > 0 && { name: "unlabelled", count: bare, text: countText(bare, "hull has no label", "hulls have no label") },
   ];
   return out.filter((badge) => badge !== false);
 }
-
-const countBadge = (name: Badge["name"], count: number, one: string, several: string): Badge => ({
-  name,
-  count,
-  text: count === 1 ? `1 ${one}` : `${count} ${several}`,
-});
 
 const SIGN = 16; // pixels that a sign takes
 const DIGIT = 7;
@@ -70,7 +63,7 @@ export function fitBadges(all: readonly Badge[], room: number): readonly Badge[]
 
 /** A card as a screen reader says it. */
 export function cardText(card: Card, engine = ""): string {
-  const amount = card.hulls === null ? (card.error ?? "being read") : hullsText(card.hulls);
+  const amount = card.hulls === null ? (card.error ?? "being read") : countText(card.hulls, "hull");
   const after = card.after !== null && card.output !== "none" ? `, ${card.after} after` : "";
   return [card.asset, amount + after, ...badgesOf(card, engine).map((badge) => badge.text)].join("; ");
 }

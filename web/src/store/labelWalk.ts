@@ -83,7 +83,7 @@ export function applyLabel(label: string | null): void | Promise<void> {
   const others = [...elsewhere].flatMap(([other, names]) => names.map((hull) => ({ asset: other, hull })));
   if (others.length) return void labelHulls(asset, hulls, label, false, others);
   if (!isCurrent(asset, hulls)) return void labelHulls(asset, hulls, label);
-  return label === null ? labelHulls(asset, hulls, null).then(() => undefined) : labelAndGoOn(asset, hulls, label);
+  return labelHulls(asset, hulls, label, label !== null).then((done) => (done && label !== null ? walk() : undefined));
 }
 
 /** The labels of the selected hulls are right: the person vouches for them; then goes on to the next one of the walk. */
@@ -96,10 +96,6 @@ export async function confirmLabels(): Promise<void> {
   const having = (label: string | null) => hulls.filter((hull) => hull.label === label).map((hull) => hull.name);
   for (const label of labels) if (!(await labelHulls(asset, having(label), label ?? NO_PART, true))) return;
   if (hulls.length) await walk();
-}
-
-async function labelAndGoOn(asset: string, hulls: readonly string[], label: string): Promise<void> {
-  if (await labelHulls(asset, hulls, label, true)) await walk();
 }
 
 /** Opens the asset of the next hull of the walk, or of the one before, selects the hull and looks at it. */

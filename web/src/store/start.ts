@@ -116,35 +116,18 @@ export function newProject({ source, folder, family, project, decompose, found }
 }
 
 /** Makes the new project, which opens by itself. */
-export async function makeProject(): Promise<void> {
-  await attempt("make", "project", () => api.makeProject(newProject(useStart.getState())));
-}
+export const makeProject = (): Promise<void> => attempt("make", "project", () => api.makeProject(newProject(useStart.getState())));
 
 /** Makes the project of the guided tour in a folder, and opens it. */
-export async function takeTour(project: string): Promise<void> {
-  await attempt("make", "tour", () => api.makeProject({ kind: "tour", project }));
-}
+export const takeTour = (project: string): Promise<void> => attempt("make", "tour", () => api.makeProject({ kind: "tour", project }));
 
-export async function openProject(folder: string): Promise<void> {
-  await attempt("open", "open", () => api.openProject(folder));
-}
+export const openProject = (folder: string): Promise<void> => attempt("open", "open", () => api.openProject(folder));
 
-export async function forgetProject(folder: string): Promise<void> {
-  try {
-    set({ view: await api.forgetProject(folder), problem: null });
-  } catch (error) {
-    reportError(error);
-  }
-}
+export const forgetProject = (folder: string): Promise<void> =>
+  api.forgetProject(folder).then((view) => set({ view, problem: null }), reportError);
 
 /** Leaves the open project for the start page. */
-export async function leaveProject(): Promise<void> {
-  try {
-    await api.leaveProject();
-  } catch (error) {
-    reportError(error);
-  }
-}
+export const leaveProject = (): Promise<unknown> => api.leaveProject().catch(reportError);
 
 /** Does one thing at a time; what goes wrong is shown at its place. */
 async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does: () => Promise<unknown>): Promise<void> {

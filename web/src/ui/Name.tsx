@@ -4,8 +4,8 @@ import css from "./name.module.css";
 /** Letters at the end that stay in sight. */
 const END = 5;
 
-/** own: what is shown of the text; hidden: whether it is said elsewhere. */
-export function Name({ text, own = text, hidden = false }: { text: string; own?: string; hidden?: boolean }) {
+/** own: what is shown of the text. */
+export function Name({ text, own = text }: { text: string; own?: string }) {
   const cut = own.length > 2 * END ? own.length - END : own.length;
   return (
     <>
@@ -13,7 +13,7 @@ export function Name({ text, own = text, hidden = false }: { text: string; own?:
         <span>{own.slice(0, cut)}</span>
         {cut < own.length && <span className={css.end}>{own.slice(cut)}</span>}
       </span>
-      {!hidden && <span className="visually-hidden">{text}</span>}
+      <span className="visually-hidden">{text}</span>
     </>
   );
 }

@@ -23,7 +23,7 @@ export function ProgramEditor({ onClose }: { onClose: () => void }) {
   };
   return (
     <div className={css.editor} onKeyDown={(event) => keys(event, () => void save(), onClose)}>
-      <ProgramText text={text} onChange={setText} marks={mark ? [mark] : []} readOnly={false} />
+      <ProgramText text={text} onChange={setText} marks={mark ? [mark] : []} />
       {mark && (
         <Note mood="bad">
           Line {mark.line}, column {mark.column}: {mark.message}
