@@ -21,11 +21,11 @@ import { Button, Tip } from "../../ui/Button";
 import { choiceLines, Menu } from "../../ui/Menu";
 import { Note } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
-import type { CheckResult, Figure, Problem } from "../../wire";
+import type { CheckResult, Problem } from "../../wire";
 import { CheckFindings } from "./CheckFindings";
 import { CheckPictures } from "./CheckPictures";
 import css from "./checks.module.css";
-import review from "./review.module.css";
+import { FigureTable } from "./FigureTable";
 
 export function Checks({ asset }: { asset: string }) {
   const version = useProject((state) => state.cards[asset]?.check ?? null);
@@ -134,11 +134,16 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const units = useUnit();
+  const rows = figures.map(({ what, unit, before, after }) => ({
+    what,
+    before: before === null ? "" : figureText(before, unit, units),
+    after: figureText(after, unit, units),
+  }));
   // what is not legal has a section of its own
   const shown = part === "engines" ? findings.filter((one) => one.engine !== null && concerns(one, engine)) : findings;
   return (
     <>
-      {figures.length > 0 && <FigureTable figures={figures} />}
+      {rows.length > 0 && <FigureTable rows={rows} />}
       {notes.map((note) => (
         <p key={note} className={css.dim}>
           {toSentence(textIn(note, units))}
@@ -168,30 +173,5 @@ function EngineMenu() {
       }
       lines={choiceLines<string>({ "": "No engine", ...engines }, engine, (name) => setChecks({ engine: name }))}
     />
-  );
-}
-
-/** Figures before and after an edit. */
-function FigureTable({ figures }: { figures: readonly Figure[] }) {
-  const units = useUnit();
-  return (
-    <table className={review.numbers}>
-      <thead>
-        <tr>
-          <td />
-          <th scope="col">Before</th>
-          <th scope="col">After</th>
-        </tr>
-      </thead>
-      <tbody>
-        {figures.map(({ what, unit, before, after }) => (
-          <tr key={what}>
-            <th scope="row">{what}</th>
-            <td>{before === null ? "" : figureText(before, unit, units)}</td>
-            <td>{figureText(after, unit, units)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
   );
 }

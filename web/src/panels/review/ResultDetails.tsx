@@ -13,58 +13,40 @@ import { hover, select, setHighlight, useUnit, useWorkspace } from "../../store/
 import { Section } from "../../ui/Section";
 import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
 import { whilePointed } from "../../ui/whilePointed";
+import { FigureTable } from "./FigureTable";
 import css from "./review.module.css";
 
 export function NumbersTable({ asset, before, edit }: { asset: string; before: readonly HullView[]; edit: EditHeader }) {
   const unit = useUnit();
   const numbers = numbersOf(before, edit);
-  const row = useProject((state) => state.confidence[asset]);
-  const alarms = alarmsOf(row);
-  const whole = (value: number) => value.toLocaleString("en-GB");
+  const alarms = alarmsOf(useProject((state) => state.confidence[asset]));
+  const row = (what: string, [before, after]: readonly [number, number], text = wholeText, alarm: string | null = null) => ({
+    what,
+    before: text(before),
+    after: text(after),
+    change: (
+      <>
+        {alarm !== null && <TriangleAlert size={13} aria-label={`Alarm: ${alarm}:`} />}
+        {changeText(before, after) ?? "–"}
+      </>
+    ),
+    alarm,
+  });
+  const rows = [
+    row("Hulls", numbers.hulls, wholeText, alarms.hulls),
+    row("Vertices", numbers.vertices),
+    row("Faces", numbers.faces),
+    row("Volume", numbers.volume, (volume) => volumeText(volume, unit), alarms.volume),
+  ];
   return (
     <Section title="Numbers" aside={`${edit.made.length} made, ${edit.removed.length} removed`}>
-      <table className={css.numbers}>
-        <thead>
-          <tr>
-            <td />
-            <th scope="col">Before</th>
-            <th scope="col">After</th>
-            <th scope="col">Change</th>
-          </tr>
-        </thead>
-        <tbody>
-          <NumbersRow what="Hulls" pair={numbers.hulls} alarm={alarms.hulls} text={whole} />
-          <NumbersRow what="Vertices" pair={numbers.vertices} text={whole} />
-          <NumbersRow what="Faces" pair={numbers.faces} text={whole} />
-          <NumbersRow what="Volume" pair={numbers.volume} alarm={alarms.volume} text={(volume) => volumeText(volume, unit)} />
-        </tbody>
-      </table>
+      <FigureTable rows={rows} changes />
       {edit.note && <p className={css.dim}>{edit.note}</p>}
     </Section>
   );
 }
 
-interface NumbersRowProps {
-  what: string;
-  pair: readonly [number, number];
-  /** Why the change stands out. */
-  alarm?: string | null;
-  text: (value: number) => string;
-}
-
-function NumbersRow({ what, pair: [before, after], alarm = null, text }: NumbersRowProps) {
-  return (
-    <tr>
-      <th scope="row">{what}</th>
-      <td>{text(before)}</td>
-      <td>{text(after)}</td>
-      <td data-alarm={alarm !== null || undefined} title={alarm ?? undefined}>
-        {alarm !== null && <TriangleAlert size={13} aria-label={`Alarm: ${alarm}:`} />}
-        {changeText(before, after) ?? "–"}
-      </td>
-    </tr>
-  );
-}
+const wholeText = (value: number): string => value.toLocaleString("en-GB");
 
 const ICONS = { error: CircleAlert, warning: TriangleAlert, note: Info } as const;
 const NAMES = { error: "Error", warning: "Warning", note: "Note" } as const;

@@ -15,11 +15,6 @@ const AXES: readonly { value: CutAxis; label: string; name: string }[] = [
 ];
 
 export function CutBar() {
-  const inHand = useWorkspace((workspace) => workspace.tool === "cut");
-  return inHand ? <Bar /> : null;
-}
-
-function Bar() {
   const selection = useWorkspace((workspace) => workspace.selection);
   const scene = useScenes((state) => state.scene);
   const { axis, share, drawn } = useCut();

@@ -21,10 +21,10 @@ const AXES: readonly { value: SectionAxis; label: string; name: string }[] = [
 ];
 
 export function SectionBar() {
-  const { on, axis, share, flipped } = useSection();
+  const { axis, share, flipped } = useSection();
   const there = useScenes(({ scene }) => scene !== null);
   const stage = useStage();
-  if (!on || !there) return null;
+  if (!there) return null;
   const put = (next: SectionAxis) => (next === "view" ? sectionFacing([...axesOf(stage.view.pose).eye]) : sectionAlong(next, useScenes.getState().scene?.view.y_up));
   return (
     <div className={css.bar} role="group" aria-label="Section plane" data-testid="section">
@@ -39,11 +39,6 @@ export function SectionBar() {
 
 /** An arrow on the plane that slides it; keys have the slider of the bar. */
 export function SectionHandle() {
-  const on = useSection((section) => section.on);
-  return on ? <Handle /> : null;
-}
-
-function Handle() {
   const stage = useStage();
   const handle = useRef<HTMLDivElement>(null);
   const grip = useRef<{ x: number; y: number; share: number } | null>(null);

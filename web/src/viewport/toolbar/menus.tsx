@@ -3,11 +3,11 @@
 import { Box, ChevronDown, Cuboid, Maximize, Palette, Video } from "lucide-react";
 import { useProject } from "../../store/project";
 import { type Scene, useAssetView, useScenes } from "../../store/scenes";
-import { type ColorBy, lookFrom, select, setUnit, setView, type Showing, useUnit, useWorkspace, visit } from "../../store/workspace";
+import { type ColorBy, select, setUnit, setView, type Showing, useUnit, useWorkspace, visit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { choiceLines, Menu, type MenuLine } from "../../ui/Menu";
 import { Swatch } from "../../ui/Section";
-import { commandOf, keyOf, linesOf } from "./commandLines";
+import { linesOf, runs } from "./commandLines";
 import css from "./toolbar.module.css";
 
 export function SelectionMenu() {
@@ -133,10 +133,9 @@ export function ViewMenu() {
         icon={parallel ? Box : Cuboid}
         name={isSheet ? "Parallel projection, in which sizes compare" : projection}
         disabled={isSheet}
-        keys={keyOf("projection")}
-        onClick={commandOf("projection").run}
+        {...runs("projection")}
       />
-      <IconButton icon={Maximize} name="Fit all into the view" keys={keyOf("fit")} onClick={() => lookFrom("fit")} />
+      <IconButton icon={Maximize} name="Fit all into the view" {...runs("fit")} />
       <Menu
         trigger={
           <button type="button" className={css.camera} aria-label="Standard views, grid and units" title="Standard views, grid and units">
