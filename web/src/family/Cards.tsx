@@ -1,6 +1,6 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
+import { type KeyboardEvent, type RefObject, useEffect, useEffectEvent, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { wrapName } from "../store/commonParts";
 import { useShown } from "../store/family";
 import { useOwnNames } from "../store/project";
@@ -148,13 +148,9 @@ function useScrollToOpen(
   columns: number,
   scrollTo: (row: number) => void,
 ): void {
-  const latest = useRef({ shown, columns, scrollTo });
-  useLayoutEffect(() => {
-    latest.current = { shown, columns, scrollTo };
+  const go = useEffectEvent(() => {
+    const at = asset === null ? -1 : shown.indexOf(asset);
+    if (at >= 0) scrollTo(Math.floor(at / columns));
   });
-  useEffect(() => {
-    const { shown: all, columns: across, scrollTo: go } = latest.current;
-    const at = asset === null ? -1 : all.indexOf(asset);
-    if (at >= 0) go(Math.floor(at / across));
-  }, [asset, size]);
+  useEffect(() => go(), [asset, size]);
 }

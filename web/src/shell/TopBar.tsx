@@ -1,11 +1,10 @@
 // The bar above: project, search, undo and redo, what works in the background, theme, help.
 import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Search } from "lucide-react";
 import { Popover } from "radix-ui";
-import { api } from "../server/api";
-import { progressText } from "../store/jobs";
+import { cancelJob, progressText } from "../store/jobs";
 import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
-import { reportError, useToasts } from "../store/toasts";
+import { useToasts } from "../store/toasts";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { JobLines } from "../ui/JobProgress";
@@ -150,7 +149,7 @@ function JobRow({ job }: { job: Job }) {
         <span className={css.jobTitle}>{job.title}</span>
         {job.total > 0 && progressText(job)}
         {job.state === "running" && job.kind !== "read" && (
-          <Button onClick={() => void api.cancelJob(job.id).catch(reportError)}>Stop</Button>
+          <Button onClick={() => cancelJob(job.id)}>Stop</Button>
         )}
       </div>
       {job.state === "running" && (

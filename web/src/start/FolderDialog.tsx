@@ -1,7 +1,7 @@
 // The folders of this machine, as the server lists them: one is gone into, or chosen.
 import { CornerLeftUp, Folder, FolderCheck, House } from "lucide-react";
 import { Dialog } from "radix-ui";
-import { type ComponentProps, type KeyboardEvent, useEffect, useRef, useState } from "react";
+import { type ComponentProps, type KeyboardEvent, useEffect, useEffectEvent, useRef, useState } from "react";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import { useStart } from "../store/start";
@@ -125,16 +125,12 @@ function useFolder(from: string, places: readonly string[]) {
       return false;
     }
   };
-  const first = useRef({ from, places, go });
-  useEffect(() => {
-    const { from: begin, places: usual, go: list } = first.current;
-    const [place] = usual;
-    const beginning = async () => {
-      if (begin && (await list(begin))) return;
-      if (place !== undefined) await list(place);
-    };
-    void beginning();
-  }, []);
+  const begin = useEffectEvent(async () => {
+    const [place] = places;
+    if (from && (await go(from))) return;
+    if (place !== undefined) await go(place);
+  });
+  useEffect(() => void begin(), []);
   return { view, text, setText, problem, go };
 }
 

@@ -6,7 +6,7 @@ import { labelHulls, NO_PART, ownHulls } from "./labels";
 import { oncePer } from "./once";
 import { oncePerFamily, useProject } from "./project";
 import { getDetails, useScenes } from "./scenes";
-import { notify, reportError } from "./toasts";
+import { notify } from "./toasts";
 import { lookFrom, openAsset, openStage, select, setBrush, setLayout, useWorkspace } from "./workspace";
 
 /** A hull by its place in its asset; sure: the percentage of its label, as the card has it. */
@@ -106,16 +106,12 @@ export async function walk(by: 1 | -1 = 1): Promise<void> {
   openStage("label");
   openAsset(next.asset);
   setLayout({ gallery: false });
-  try {
-    const { view } = await getDetails(next.asset);
-    const hull = view.hulls[next.position];
-    if (!hull || useWorkspace.getState().asset !== next.asset) return;
-    select([hull.name]);
-    lookFrom("near");
-    current = { ...next, hull: hull.name };
-  } catch (error) {
-    reportError(error);
-  }
+  const { view } = await getDetails(next.asset);
+  const hull = view.hulls[next.position];
+  if (!hull || useWorkspace.getState().asset !== next.asset) return;
+  select([hull.name]);
+  lookFrom("near");
+  current = { ...next, hull: hull.name };
 }
 
 /** The hull that is selected, by which the walk goes on; null where it begins anew. */

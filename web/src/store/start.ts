@@ -4,7 +4,6 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
-import { reportError } from "./toasts";
 import { type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
@@ -83,11 +82,7 @@ export async function uploadForProject(files: readonly PlacedFile[]): Promise<vo
   if (useStart.getState().busy) return;
   chooseSource("upload");
   set({ found: null, project: "", problem: null });
-  try {
-    await api.clearFiles(); // what was dropped before
-  } catch (error) {
-    return reportError(error);
-  }
+  await api.clearFiles(); // what was dropped before
   await sendFiles(files, api.stageProjectFile, () => look(api.lookAtFiles));
 }
 
@@ -124,10 +119,10 @@ export const takeTour = (project: string): Promise<void> => attempt("make", "tou
 export const openProject = (folder: string): Promise<void> => attempt("open", "open", () => api.openProject(folder));
 
 export const forgetProject = (folder: string): Promise<void> =>
-  api.forgetProject(folder).then((view) => set({ view, problem: null }), reportError);
+  api.forgetProject(folder).then((view) => set({ view, problem: null }));
 
 /** Leaves the open project for the start page. */
-export const leaveProject = (): Promise<unknown> => api.leaveProject().catch(reportError);
+export const leaveProject = (): Promise<unknown> => api.leaveProject();
 
 /** Does one thing at a time; what goes wrong is shown at its place. */
 async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does: () => Promise<unknown>): Promise<void> {
@@ -136,8 +131,8 @@ async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does
   try {
     await does();
   } catch (error) {
-    if (error instanceof ServerProblem) set({ problem: { place, problem: error.problem } });
-    else reportError(error);
+    if (!(error instanceof ServerProblem)) throw error;
+    set({ problem: { place, problem: error.problem } });
   } finally {
     set({ busy: null });
   }

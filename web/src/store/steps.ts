@@ -5,7 +5,6 @@ import { callOf } from "./actions";
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
-import { reportError } from "./toasts";
 import type { Draft } from "./workspace";
 
 type Change = (steps: readonly StepEdit[]) => readonly StepEdit[];
@@ -142,14 +141,10 @@ const stateKey = (asset: string, place: number): string =>
 
 /** Gives the step in a place (from 0) another action, on each of some assets. */
 export async function changeActionOn(assets: readonly string[], place: number, action: ActionCall): Promise<void> {
-  try {
-    for (const asset of assets) {
-      const done = await changeSteps(asset, (steps) =>
-        steps.map((step, k) => (k === place ? { ...step, action } : step)),
-      );
-      if (!done) return;
-    }
-  } catch (error) {
-    reportError(error);
+  for (const asset of assets) {
+    const done = await changeSteps(asset, (steps) =>
+      steps.map((step, k) => (k === place ? { ...step, action } : step)),
+    );
+    if (!done) return;
   }
 }

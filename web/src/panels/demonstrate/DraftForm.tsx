@@ -8,7 +8,6 @@ import { acceptDraft, changeArgument, changeDraft, dropDraft, startDraft, useDra
 import { previewText, usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { changeActionOn } from "../../store/steps";
-import { reportError } from "../../store/toasts";
 import { listText, shortName } from "../../store/words";
 import { type Draft, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
@@ -96,7 +95,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           >
             {isReview ? "Keep this edit" : draft.editing === null ? "Add step" : `Keep as step ${draft.editing + 1}`}
           </Button>
-          <Button onClick={() => void dropDraft().catch(reportError)} keys="Esc" tip="Cancel the action">
+          <Button onClick={() => void dropDraft()} keys="Esc" tip="Cancel the action">
             Cancel
           </Button>
         </div>

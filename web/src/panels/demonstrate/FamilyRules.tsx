@@ -10,7 +10,6 @@ import { clearStepHighlight, highlightStep } from "../../store/highlight";
 import { useProject } from "../../store/project";
 import { useAssetView } from "../../store/scenes";
 import { amountText, openPlaces } from "../../store/steps";
-import { reportError } from "../../store/toasts";
 import { countText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
@@ -128,7 +127,7 @@ function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
             look={isNext ? "primary" : "plain"}
             keys={isNext ? "Enter" : undefined}
             tip="Take the guess as the step"
-            onClick={() => runInTurn(() => acceptGuess(place + 1).catch(reportError))}
+            onClick={() => runInTurn(() => acceptGuess(place + 1))}
           >
             Accept
           </Button>

@@ -3,12 +3,14 @@ import { Check, RotateCw, SkipForward, Undo2, X } from "lucide-react";
 import { useState } from "react";
 import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
+import { ServerProblem } from "../../server/http";
 import { failingGoals } from "../../store/goals";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
 import { isWritten, staleText } from "../../store/reviews";
 import { errorParts, shortName } from "../../store/words";
+import type { Scene } from "../../store/scene";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
@@ -28,8 +30,7 @@ export function AssetReview() {
 }
 
 function OneAsset({ asset }: { asset: string }) {
-  const of = useResultKind(asset);
-  const result = useResult(asset, of);
+  const result = useResult(asset, useResultKind(asset));
   const hasError = useProject((state) => state.cards[asset]?.error != null);
   const correcting = useWorkspace((state) => state.draft !== null);
   return (
@@ -39,7 +40,7 @@ function OneAsset({ asset }: { asset: string }) {
       <Remarks asset={asset} />
       <GoalsOfAsset asset={asset} />
       <Doubts asset={asset} />
-      {result.kind === "problem" && !hasError && (
+      {result instanceof ServerProblem && !hasError && (
         <Section title="Result">
           <Note mood="bad">
             {result.problem.message}
@@ -47,15 +48,20 @@ function OneAsset({ asset }: { asset: string }) {
           </Note>
         </Section>
       )}
-      {result.kind === "there" && result.scene.edit && (
-        <>
-          <NumbersTable asset={asset} before={result.scene.view.hulls} edit={result.scene.edit} />
-          <Findings edit={result.scene.edit} />
-          <Checks asset={asset} />
-          <Trace asset={asset} of={result.of} edit={result.scene.edit} />
-        </>
-      )}
+      {result && !(result instanceof ServerProblem) && <Details asset={asset} scene={result} />}
       {!correcting && <Corrections asset={asset} />}
+    </>
+  );
+}
+
+function Details({ asset, scene: { view, edit, showing } }: { asset: string; scene: Scene }) {
+  if (!edit || showing.kind !== "result") return null;
+  return (
+    <>
+      <NumbersTable asset={asset} before={view.hulls} edit={edit} />
+      <Findings edit={edit} />
+      <Checks asset={asset} />
+      <Trace asset={asset} of={showing.of} edit={edit} />
     </>
   );
 }

@@ -102,7 +102,7 @@ function CheckPart({ asset, version, part }: PartProps) {
       </h4>
       {(!measured || measured.kind === "coming") && <Waiting begun={measured !== undefined} />}
       {measured?.kind === "problem" && <Failed problem={measured.problem} onAgain={() => retryPart(asset, version, part)} />}
-      {measured?.kind === "there" && <PartResult asset={asset} version={version} checked={measured.checked} />}
+      {measured?.kind === "there" && <PartResult asset={asset} checked={measured.checked} />}
     </section>
   );
 }
@@ -130,7 +130,7 @@ function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void })
   );
 }
 
-function PartResult({ asset, version, checked }: { asset: string; version: string; checked: CheckResult }) {
+function PartResult({ asset, checked }: { asset: string; checked: CheckResult }) {
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const units = useUnit();
@@ -152,7 +152,7 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
       <CheckFindings asset={asset} findings={shown} />
       {part === "engines" && engine !== "" && !shown.length && <p className={css.good}>✓ Within all of them.</p>}
       {gone > 0 && <p className={css.good}>✓ {countText(gone, "finding")} of the original asset {gone === 1 ? "is" : "are"} gone.</p>}
-      {pictured && <CheckPictures asset={asset} version={version} part={part} />}
+      {pictured && <CheckPictures asset={asset} part={part} />}
       {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m", units)}: smaller details are missed.</p>}
     </>
   );

@@ -5,7 +5,7 @@ import { openGoals } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countExportable } from "../../store/reviews";
-import { notify, reportError } from "../../store/toasts";
+import { notify } from "../../store/toasts";
 import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
@@ -84,7 +84,7 @@ function Outcome({ job }: { job: Job }) {
 }
 
 function Where({ folder }: { folder: string }) {
-  const copy = () => navigator.clipboard.writeText(folder).then(() => notify("Path copied"), reportError);
+  const copy = () => navigator.clipboard.writeText(folder).then(() => notify("Path copied"));
   return (
     <div className={css.where}>
       <code>{folder}</code>

@@ -1,8 +1,7 @@
 // What an edited asset comes to: numbers before and after, what the check of legality says, and what each rule did.
 import { CircleAlert, CircleCheck, Info, TriangleAlert } from "lucide-react";
-import { useEffect, useState } from "react";
 import { RuleText } from "../learn/RuleText";
-import { ServerProblem } from "../../server/http";
+import { problemOf, type ServerProblem } from "../../server/http";
 import { highlightOfRule } from "../../store/highlight";
 import { useProject } from "../../store/project";
 import { alarmsOf, numbersOf, verdictOf } from "../../store/reviews";
@@ -11,7 +10,8 @@ import { textIn, volumeText } from "../../store/units";
 import { changeText, countText, listText } from "../../store/words";
 import { hover, select, setHighlight, useUnit, useWorkspace } from "../../store/workspace";
 import { Section } from "../../ui/Section";
-import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
+import type { EditHeader, FindingView, HullView, TraceLine } from "../../wire";
+import { useAnswer } from "../../ui/useAnswer";
 import { whilePointed } from "../../ui/whilePointed";
 import { FigureTable } from "./FigureTable";
 import css from "./review.module.css";
@@ -148,7 +148,6 @@ function effectText({ selected, made }: TraceLine): string {
 }
 
 type ResultKind = "program" | "output";
-type Result = { kind: "coming" } | { kind: "there"; of: ResultKind; scene: Scene } | { kind: "problem"; problem: Problem };
 
 /** Which result of an asset is looked at: the one that is shown; else the written one, if there is one. */
 export function useResultKind(asset: string): ResultKind {
@@ -158,28 +157,12 @@ export function useResultKind(asset: string): ResultKind {
   return written ? "output" : "program";
 }
 
-export function useResult(asset: string, of: ResultKind): Result {
+/** The result of an asset, or why there is none; null while it comes, and without a program. The one before stays till then. */
+export function useResult(asset: string, of: ResultKind): Scene | ServerProblem | null {
   const state = useProject((now) =>
     [now.revisions[asset], now.shapeRevisions[asset], now.program.version, now.cards[asset]?.edited_picture].join(" "),
   );
   const empty = useProject((now) => of === "program" && !now.program.text.trim());
-  const key = `${asset} ${of} ${state}`;
-  const [got, setGot] = useState<{ asset: string; key: string; result: Result } | null>(null);
-  useEffect(() => {
-    if (empty) return;
-    let wanted = true;
-    const take = (result: Result) => wanted && setGot({ asset, key, result });
-    sceneOf(asset, { kind: "result", of }).then(
-      (scene) => take({ kind: "there", of, scene }),
-      (error: unknown) => {
-        if (error instanceof ServerProblem) take({ kind: "problem", problem: error.problem });
-        else throw error;
-      },
-    );
-    return () => {
-      wanted = false;
-    };
-  }, [asset, of, key, empty]);
-  // the result before stays while the next of the same asset comes, so that nothing flickers
-  return got?.asset === asset && !empty ? got.result : { kind: "coming" };
+  const found = useAnswer(`${asset} ${of} ${state} ${empty}`, async () => (empty ? null : sceneOf(asset, { kind: "result", of }).catch(problemOf)));
+  return empty ? null : found;
 }
