@@ -136,19 +136,10 @@ function ListHead({ order, onOrder }: { order: Order; onOrder: (order: Order) =>
   );
 }
 
-interface ListKeys {
-  /** The row that the keys are at. */
-  readonly active: string | null;
-  readonly setActive: (name: string) => void;
-  readonly onKeyDown: (event: KeyboardEvent) => void;
-  readonly onClick: (event: MouseEvent) => void;
-  readonly onDoubleClick: () => void;
-}
-
 const PAGE = 10;
 
-/** reveal: brings a row into sight. */
-function useListKeys(names: readonly string[], reveal: (index: number) => void): ListKeys {
+/** The row that the keys are at, and what keys and clicks do. reveal: brings a row into sight. */
+function useListKeys(names: readonly string[], reveal: (index: number) => void) {
   const [active, setActive] = useState<string | null>(null);
   const [anchor, setAnchor] = useState<string | null>(null);
   const take = (name: string, event: { shiftKey: boolean; ctrlKey: boolean; metaKey: boolean }) => {

@@ -76,7 +76,7 @@ export function LandmarkBar() {
   const landmarks = useWorkspace((workspace) => workspace.landmarks);
   return (
     <div className={css.bar} role="status">
-      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts."}
+      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts, such as a leg for up."}
       <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
         Leave
       </Button>
