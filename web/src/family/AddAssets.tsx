@@ -109,14 +109,12 @@ function useDrop(take: (files: readonly PlacedFile[]) => Promise<void>): boolean
       event.preventDefault();
       void droppedFiles(event.dataTransfer).then(take);
     };
-    window.addEventListener("dragover", drag);
-    window.addEventListener("dragleave", leave);
-    window.addEventListener("drop", drop);
-    return () => {
-      window.removeEventListener("dragover", drag);
-      window.removeEventListener("dragleave", leave);
-      window.removeEventListener("drop", drop);
-    };
+    const stop = new AbortController();
+    const { signal } = stop;
+    window.addEventListener("dragover", drag, { signal });
+    window.addEventListener("dragleave", leave, { signal });
+    window.addEventListener("drop", drop, { signal });
+    return () => stop.abort();
   }, [take]);
   return over;
 }

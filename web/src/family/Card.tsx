@@ -60,6 +60,12 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
   const badges = badgesOf(card, engine, bare);
   const title = [doubts, ...badges.map(({ text }) => text)].join("\n");
   const description = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
+  // the folder, which all assets share, is in the tooltip only
+  const broken = (
+    <p className={css.error} title={card.error ?? undefined} aria-hidden>
+      {card.error?.replace(/^\S*[/\\](?=\S+:)/, "")}
+    </p>
+  );
   return (
     <div
       id={cardId(asset)}
@@ -77,7 +83,7 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
       onDoubleClick={() => setLayout({ gallery: false })}
     >
       <span className="visually-hidden">{description}</span>
-      {card.error === null ? <Face card={card} large={large} selected={selected} /> : <Broken error={card.error} />}
+      {card.error === null ? <Face card={card} large={large} selected={selected} /> : broken}
       <div className={css.foot} style={{ height: words }} aria-hidden>
         <span className={css.name}>{name}</span>
         <span className={css.line}>
@@ -96,15 +102,6 @@ function clickCard({ shiftKey, ctrlKey, metaKey }: MouseEvent, asset: string): v
   if (isLabelling && shiftKey) extendSheet(asset);
   else if (isLabelling && (ctrlKey || metaKey)) toggleOnSheet(asset);
   else openAsset(asset);
-}
-
-/** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
-function Broken({ error }: { error: string }) {
-  return (
-    <p className={css.error} title={error} aria-hidden>
-      {error.replace(/^\S*[/\\](?=\S+:)/, "")}
-    </p>
-  );
 }
 
 interface FaceProps {

@@ -51,7 +51,10 @@ export function Cards({ large }: { large: boolean }) {
   if (shown.length === 0) {
     return (
       <div ref={box} className={css.cards}>
-        <NoMatch />
+        <div className={css.noMatch}>
+          <p>No asset matches.</p>
+          <Button onClick={() => setFilters({ search: "", only: [] })}>Clear filters</Button>
+        </div>
       </div>
     );
   }
@@ -114,15 +117,6 @@ function extendByKey(shown: readonly string[], by: number): void {
   const end = high > here ? high : low < here ? low : here;
   const to = shown[Math.min(Math.max(end + by, 0), shown.length - 1)];
   if (to !== undefined) extendSheet(to);
-}
-
-function NoMatch() {
-  return (
-    <div className={css.noMatch}>
-      <p>No asset matches.</p>
-      <Button onClick={() => setFilters({ search: "", only: [] })}>Clear filters</Button>
-    </div>
-  );
 }
 
 /** The width inside an element, as it changes. */

@@ -88,10 +88,6 @@ export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: 
   return [`${asset}: ${sure}`, ...row.reasons.map((doubt) => `• ${doubt.text}`)].join("\n");
 }
 
-/** The rows of an assessment by asset. */
-export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, ConfidenceView>> =>
-  Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
-
 /** Kinds of questions that are asked while there is no program. */
 const FIRST: readonly ReviewQuestionView["kind"][] = ["repair", "orientation"];
 

@@ -106,15 +106,8 @@ function StepSign({ step }: { step: AssetView["steps"][number] | undefined }) {
   return <Check size={15} className={css.good} role="img" aria-label="shown" />;
 }
 
-interface GuessLineProps {
-  guess: Guess | undefined;
-  view: AssetView;
-  place: number;
-  isNext: boolean;
-}
-
 /** What the program would select for an open rule: to be accepted, corrected, or answered with nothing. */
-function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
+function GuessLine({ guess, view, place, isNext }: Pick<RuleRowProps, "view" | "place" | "isNext"> & { guess: Guess | undefined }) {
   const sound = guess?.error === null ? guess : undefined;
   const count = sound?.select.length ?? 0;
   return (

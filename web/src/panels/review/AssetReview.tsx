@@ -13,7 +13,7 @@ import { errorParts, shortName } from "../../store/words";
 import type { Scene } from "../../store/scene";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { Note, Section } from "../../ui/Section";
+import { Note, ProblemNote, Section } from "../../ui/Section";
 import type { Card } from "../../wire";
 import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
@@ -42,10 +42,7 @@ function OneAsset({ asset }: { asset: string }) {
       <Doubts asset={asset} />
       {result instanceof ServerProblem && !hasError && (
         <Section title="Result">
-          <Note mood="bad">
-            {result.problem.message}
-            {result.problem.remedy && <p className={css.remedy}>{result.problem.remedy}</p>}
-          </Note>
+          <ProblemNote {...result.problem} />
         </Section>
       )}
       {result && !(result instanceof ServerProblem) && <Details asset={asset} scene={result} />}
@@ -149,7 +146,7 @@ function Remarks({ asset }: { asset: string }) {
   if (!card || (!card.error && !card.stale.length && !card.flags.length)) return null;
   return (
     <div className={css.remarks}>
-      {card.error && <Failure error={card.error} asset={asset} />}
+      {card.error && <ProblemNote {...errorParts(card.error, asset)} />}
       {card.stale.length > 0 && <Stale asset={asset} reasons={card.stale} />}
       {card.flags.map((flag) => (
         <Note key={flag} mood="warn">
@@ -157,16 +154,6 @@ function Remarks({ asset }: { asset: string }) {
         </Note>
       ))}
     </div>
-  );
-}
-
-function Failure({ error, asset }: { error: string; asset: string }) {
-  const { message, remedy } = errorParts(error, asset);
-  return (
-    <Note mood="bad">
-      {message}
-      {remedy && <p className={css.remedy}>{remedy}</p>}
-    </Note>
   );
 }
 

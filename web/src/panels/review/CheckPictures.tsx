@@ -30,18 +30,20 @@ export function CheckPictures(of: PartId) {
   );
 }
 
+export function Coming({ what }: { what: string }) {
+  return (
+    <p className={css.coming} role="status">
+      <LoaderCircle size={14} aria-hidden className={css.spinning} /> {what}
+    </p>
+  );
+}
+
 /** Drawn anew when the unit changes; the drawing stops when nobody looks any more. */
 function Pictures({ asset, part }: PartId) {
   const unit = useUnit();
   const drawn = useAnswer(`${asset} ${part} ${unit}`, (stop) => api.checkPictures(asset, part, unit, stop).catch(problemOf));
   if (drawn instanceof ServerProblem) return <Note mood="bad">{drawn.problem.message}</Note>;
-  if (!drawn) {
-    return (
-      <p className={css.coming} role="status">
-        <LoaderCircle size={14} aria-hidden className={css.spinning} /> drawing
-      </p>
-    );
-  }
+  if (!drawn) return <Coming what="drawing" />;
   if (!drawn.length) return <p className={css.dim}>There is nothing to draw.</p>;
   return drawn.map(({ text, source }) => {
     const words = toSentence(textIn(text, unit));

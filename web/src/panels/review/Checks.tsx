@@ -1,5 +1,5 @@
 // What is measured of the written output beside the asset: fit, clearance, rest, and the limits of an engine.
-import { ChevronDown, ChevronRight, LoaderCircle, RotateCw } from "lucide-react";
+import { ChevronDown, ChevronRight, RotateCw } from "lucide-react";
 import { useEffect } from "react";
 import {
   concerns,
@@ -19,11 +19,11 @@ import { countText, toSentence } from "../../store/words";
 import { setChecks, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
 import { choiceLines, Menu } from "../../ui/Menu";
-import { Note } from "../../ui/Section";
+import { ProblemNote } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
 import type { CheckResult, Problem } from "../../wire";
 import { CheckFindings } from "./CheckFindings";
-import { CheckPictures } from "./CheckPictures";
+import { CheckPictures, Coming } from "./CheckPictures";
 import css from "./checks.module.css";
 import { FigureTable } from "./FigureTable";
 
@@ -100,33 +100,23 @@ function CheckPart({ asset, version, part }: PartProps) {
       <h4>
         {TITLES[part]} {part === "engines" && <EngineMenu />}
       </h4>
-      {(!measured || measured.kind === "coming") && <Waiting begun={measured !== undefined} />}
+      {!measured && <p className={css.dim}>…</p>}
+      {measured?.kind === "coming" && <Coming what="measuring" />}
       {measured?.kind === "problem" && <Failed problem={measured.problem} onAgain={() => retryPart(asset, version, part)} />}
       {measured?.kind === "there" && <PartResult asset={asset} checked={measured.checked} />}
     </section>
   );
 }
 
-function Waiting({ begun }: { begun: boolean }) {
-  if (!begun) return <p className={css.dim}>…</p>;
-  return (
-    <p className={css.coming} role="status">
-      <LoaderCircle size={14} aria-hidden className={css.spinning} /> measuring
-    </p>
-  );
-}
-
 function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void }) {
   return (
-    <Note mood="bad">
-      {problem.message}
-      {problem.remedy && <p>{problem.remedy}</p>}
+    <ProblemNote {...problem}>
       <div className={css.again}>
         <Button icon={RotateCw} onClick={onAgain}>
           Try again
         </Button>
       </div>
-    </Note>
+    </ProblemNote>
   );
 }
 

@@ -11,7 +11,6 @@ import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
 import { useCalled } from "../../ui/useCalled";
-import type { Job } from "../../wire";
 import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import css from "./review.module.css";
 
@@ -25,7 +24,13 @@ export function ExportSection() {
       <Section title="Export">
         {running ? <JobProgress job={job} unit="asset" /> : <Form />}
       </Section>
-      {job && !running && <Outcome job={job} />}
+      {job && !running && (
+        <Section title="The last export">
+          <JobNote job={job} />
+          {job.out && <Where folder={job.out} />}
+          <JobLines lines={job.lines} />
+        </Section>
+      )}
     </>
   );
 }
@@ -70,16 +75,6 @@ function Form() {
         Export {countText(counts[what], "asset")}
       </Button>
     </form>
-  );
-}
-
-function Outcome({ job }: { job: Job }) {
-  return (
-    <Section title="The last export">
-      <JobNote job={job} />
-      {job.out && <Where folder={job.out} />}
-      <JobLines lines={job.lines} />
-    </Section>
   );
 }
 

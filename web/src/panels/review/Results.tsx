@@ -72,21 +72,17 @@ function List({ lines, onOpen }: { lines: readonly Line[]; onOpen: () => void })
           const line = lines[index];
           return (
             <div key={key} role="listitem" data-index={index} ref={rows.measureElement} className={css.place} style={{ transform: `translateY(${start}px)` }}>
-              {line?.kind === "head" && <Head line={line} />}
+              {line?.kind === "head" && (
+                <h3 className={css.groupHead}>
+                  {HEADS[line.group]} <span className={css.dim}>{line.count}</span>
+                </h3>
+              )}
               {line?.kind === "card" && <ResultRow card={line.card} onOpen={onOpen} />}
             </div>
           );
         })}
       </div>
     </div>
-  );
-}
-
-function Head({ line }: { line: Line & { kind: "head" } }) {
-  return (
-    <h3 className={css.groupHead}>
-      {HEADS[line.group]} <span className={css.dim}>{line.count}</span>
-    </h3>
   );
 }
 

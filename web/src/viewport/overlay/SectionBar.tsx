@@ -4,6 +4,7 @@ import { type PointerEvent, useRef } from "react";
 import { Vector3 } from "three";
 import { useScenes } from "../../store/scenes";
 import { type SectionAxis, sectionAlong, sectionFacing, setSection, useSection } from "../../store/section";
+import { ACROSS } from "../../store/vectors";
 import { IconButton } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
 import { axesOf, plus, type Vec } from "../camera/pose";
@@ -14,9 +15,7 @@ import css from "./overlay.module.css";
 import tools from "./tools.module.css";
 
 const AXES: readonly { value: SectionAxis; label: string; name: string }[] = [
-  { value: "x", label: "X", name: "Across the X axis" },
-  { value: "y", label: "Y", name: "Across the Y axis" },
-  { value: "z", label: "Z", name: "Across the Z axis" },
+  ...ACROSS,
   { value: "view", label: "View", name: "Across the direction of the view as it is now" },
 ];
 
