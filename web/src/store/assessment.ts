@@ -97,9 +97,6 @@ export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): 
   return question && (assessment?.assets.length || FIRST.includes(question.kind)) ? question : null;
 }
 
-/** Whether a question is open. */
-export const isAsked = (state: Pick<ProjectState, "assessment">): boolean => openQuestion(state) !== null;
-
 /** Hulls of a group, by their keys, that get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
 type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;

@@ -21,7 +21,7 @@ import { Button, Tip } from "../../ui/Button";
 import { choiceLines, Menu } from "../../ui/Menu";
 import { ProblemNote } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
-import type { CheckResult, Problem } from "../../wire";
+import type { CheckResult } from "../../wire";
 import { CheckFindings } from "./CheckFindings";
 import { CheckPictures, Coming } from "./CheckPictures";
 import css from "./checks.module.css";
@@ -102,21 +102,17 @@ function CheckPart({ asset, version, part }: PartProps) {
       </h4>
       {!measured && <p className={css.dim}>…</p>}
       {measured?.kind === "coming" && <Coming what="measuring" />}
-      {measured?.kind === "problem" && <Failed problem={measured.problem} onAgain={() => retryPart(asset, version, part)} />}
+      {measured?.kind === "problem" && (
+        <ProblemNote {...measured.problem}>
+          <div className={css.again}>
+            <Button icon={RotateCw} onClick={() => retryPart(asset, version, part)}>
+              Try again
+            </Button>
+          </div>
+        </ProblemNote>
+      )}
       {measured?.kind === "there" && <PartResult asset={asset} checked={measured.checked} />}
     </section>
-  );
-}
-
-function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void }) {
-  return (
-    <ProblemNote {...problem}>
-      <div className={css.again}>
-        <Button icon={RotateCw} onClick={onAgain}>
-          Try again
-        </Button>
-      </div>
-    </ProblemNote>
   );
 }
 
