@@ -23,6 +23,7 @@ from tests.e2e.walk import guessed, stepped
 
 Selections = tuple[frozenset[str], ...]
 _TRIES = 150
+_CARDS = '[role=group][aria-label="What MeshForge asks"]'
 
 
 @dataclass
@@ -71,6 +72,9 @@ class Expert:
         """Press the key of the card until it is there: a busy page may lose one."""
         card = self.person.page.locator(f'[id="question-{question["id"]}"]')
         card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
+        if self.person.page.locator(f"{_CARDS}:focus-within").count():  # it keeps the focus from card to card
+            card.first.wait_for()
+            return
         for timeout in (5_000, 10_000, 60_000):
             self.person.press("u")
             with suppress(TimeoutError):

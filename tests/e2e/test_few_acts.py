@@ -23,14 +23,20 @@ from tests.corpus_path import corpus
 from tests.e2e.expert import Expert, open_question, volumes_of
 from tests.e2e.hand import hand, windows
 from tests.e2e.studio import ending, started
-from tests.e2e.test_eight_chairs import is_honest
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address, go_to, stepped
 
 Truth = dict[str, dict[str, str]]
 """The part of each hull, by asset and name."""
 CHAIRS = {
-    "KayKit-Furniture-Bits-1.0": ("chair_A", "chair_A_wood", "chair_B", "chair_B_wood", "chair_stool", "chair_stool_wood"),
+    "KayKit-Furniture-Bits-1.0": (
+        "chair_A",
+        "chair_A_wood",
+        "chair_B",
+        "chair_B_wood",
+        "chair_stool",
+        "chair_stool_wood",
+    ),
     "KayKit-Restaurant-Bits-1.0": ("chair_A", "chair_B"),
 }
 SEAT = (0.35, 0.55)
@@ -62,7 +68,9 @@ def write_tables(folder: Path) -> Truth:
     for file in TABLES.glob("*.obj"):
         shutil.copy(file, folder)
         said = json.loads(file.with_suffix(".labels.json").read_text())["hulls"]
-        truth[file.name] = {hull: {"leg": "part_a", "misc": "part_b"}.get(row["label"], NO_PART) for hull, row in said.items()}
+        truth[file.name] = {
+            hull: {"leg": "part_a", "misc": "part_b"}.get(row["label"], NO_PART) for hull, row in said.items()
+        }
     return truth
 
 
@@ -108,7 +116,10 @@ class Pointer(Expert):
         self.person.drawn(asset)
         alike = True
         while left := hulls - self._selected():
-            self._take(min(left, key=lambda hull: (not self._is_seen(hull), hull)), *(["Control"] if self._selected() & hulls else []))
+            self._take(
+                min(left, key=lambda hull: (not self._is_seen(hull), hull)),
+                *(["Control"] if self._selected() & hulls else []),
+            )
             if alike:
                 before = self._selected()
                 self.person.press("j")
@@ -125,9 +136,17 @@ class Pointer(Expert):
         """Click on a hull in the view, or in the list where others hide it."""
         if self._is_seen(hull):
             self.person.hull(hull, *keys)
-            self.person.actions -= len(keys) # TODO
+            self.person.actions -= len(keys)  # TODO
         else:
-            self.person.click(self.person.page.locator(f'[role=row][data-name="{hull}"]'), modifiers=list(keys))
+            row = self.person.page.locator(f'[role=row][data-name="{hull}"]')
+            self.person.page.get_by_role("grid", name="Hulls").hover()
+            for _ in range(60):
+                if row.count():
+                    break
+                self.person.page.mouse.wheel(0, 200)
+                self.person.page.wait_for_timeout(50)
+            self.person.actions += 1
+            self.person.click(row, modifiers=list(keys))
 
     def _selected(self) -> frozenset[str]:
         return frozenset(self.person.page.evaluate("window.meshforgeViewport.selected()"))
@@ -139,6 +158,8 @@ class Pointer(Expert):
         if question["kind"] != "group":
             return super()._answer(question)
         labels = [choice["label"] for choice in question["choices"]]
+        if len(question["hulls"]) == 1:
+            return super()._answer(question)
         for hull in question["hulls"]:
             name = f"{hull['hull']} of {hull['asset']}: "
             for _ in range(labels.index(self.truth[hull["asset"]][hull["hull"]])):
@@ -202,4 +223,10 @@ def test_a_family_takes_few_acts(name: str, tmp_path: Path, monkeypatch: pytest.
 def show(hello, expert):
     q = open_question(hello)
     if q:
-        print(expert.person.actions, q["kind"], q["text"], [c["text"] for c in q["choices"]], [(h["asset"], h["hull"], expert.truth[h["asset"]][h["hull"]]) for h in q["hulls"]][:8])
+        print(
+            expert.person.actions,
+            q["kind"],
+            q["text"],
+            [c["text"] for c in q["choices"]],
+            [(h["asset"], h["hull"], expert.truth[h["asset"]][h["hull"]]) for h in q["hulls"]][:8],
+        )

@@ -30,7 +30,9 @@ def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: P
         assert len(project.mesh("stool.obj").hulls) == 3
         person.press("Control+z")
         _has_hulls(person, 2)
+        assert not project.mesh("corner.obj").hulls
         _make_hulls(person)
+        person.page.get_by_role("button", name="Jobs").wait_for()
         assert len(project.mesh("corner.obj").hulls) == 2
 
 
@@ -87,7 +89,18 @@ def _make_hulls(person: Hand) -> None:
     # in the middle of its card is a button that makes hulls, too
     person.click(person.page.get_by_role("option", name="corner.obj").first, position={"x": 8, "y": 8})
     person.drawn("corner.obj")
-    person.click("Decompose into hulls")
+    person.page.get_by_label("Hulls of a piece, at most").fill("1")
+    person.click("Try on this asset")
+    person.sees("1 piece: 1 hull, ")
+    _has_hulls(person, 1)
+    person.click("Discard")
+    _has_hulls(person, 0)
+    person.page.get_by_label("Hulls of a piece, at most").fill("")
+    person.click("Try again")
+    person.sees("Hulls to try: none is kept yet")
+    _has_hulls(person, 2)
+    person.click("Keep for this one")
+    person.sees("Original")
     _has_hulls(person, 2)
 
 

@@ -99,3 +99,28 @@ def test_a_studio_that_was_killed_is_started_again_and_its_page_goes_on(
             person.click("Undo")
             person.sees("Undone: 1 hull of t0.obj labelled first")
         assert not person.complaints
+
+
+def test_the_tour_is_one_click_in_a_folder_that_is_typed_and_stays_among_the_projects(
+    studio: Studio, tmp_path: Path, browser: Browser
+) -> None:
+    (tmp_path / "cup.xml").write_text(
+        "<mujoco><asset><mesh file='cup.stl'/></asset><worldbody><geom type='mesh' mesh='cup'/></worldbody></mujoco>"
+    )
+    with windows(browser):
+        person = hand(browser)
+        person.page.goto(address(studio))
+        person.sees("says how sure each result is")
+        drop(person, tmp_path / "cup.xml")
+        person.sees("cup.xml refers to 1 file that was not dropped: cup.stl: drop the folder")
+        assert person.page.get_by_label("Project folder").count() == 0
+        person.page.get_by_label("Folder of the tour").fill(str(tmp_path / "tour"))
+        person.click("Take the guided tour")
+        person.page.get_by_role("dialog", name="Tour: A family of tables").wait_for()
+        person.drawn()
+        studio.settled()
+        person.page.get_by_role("option", name="table_14.obj").get_by_text("hulls").first.wait_for(state="attached")
+        person.click("Projects: leave this one for the start page")
+        person.sees("14 assets · no program yet · today")
+        assert person.complaints == []
+    assert len(Project.open(tmp_path / "tour").assets()) == 14

@@ -123,6 +123,31 @@ def test_messages_lie_over_neither_the_view_nor_the_family(studio: Studio, brows
     person.press("Control+z")
 
 
+def test_names_are_what_an_asset_has_alone_and_columns_are_made_wider_by_keys(studio: Studio, browser: Browser) -> None:
+    person = _person(browser, studio)
+    cards = person.page.get_by_role("listbox", name="Assets").get_by_role("option")
+    foot = cards.first.locator("[aria-hidden] > span").first
+    assert foot.inner_text() == "03"
+    assert (cards.first.get_attribute("title") or "").splitlines() == ["table_03.obj", "36 hulls have no label"]
+    assert "table_03.obj" in cards.first.inner_text(), "a screen reader says it whole"
+    row = person.page.locator("[data-name=convex_00] [role=gridcell]").first
+    assert row.inner_text().split() == ["00", "convex_00"] and row.get_attribute("title") == "convex_00"
+    for name, column, key in (("family", "Family", "ArrowRight"), ("panel", "Stage", "ArrowLeft")):
+        side = person.page.get_by_role("complementary", name=column)
+        wide = side.evaluate("one => one.offsetWidth") + 32
+        person.reach(person.page.get_by_role("separator", name=f"Width of the {name}"))
+        person.press(key, key)
+        person.page.wait_for_function(
+            "([name, wide]) => document.querySelector(`[aria-label=${name}][data-part]`)?.offsetWidth === wide",
+            arg=[column, wide],
+        )
+        person.page.reload()
+        person.page.wait_for_function(
+            "([name, wide]) => document.querySelector(`[aria-label=${name}][data-part]`)?.offsetWidth === wide",
+            arg=[column, wide],
+        )
+
+
 def test_a_label_of_300_characters_is_cut(studio: Studio, browser: Browser) -> None:
     person = _person(browser, studio)
     person.press("Alt+1")

@@ -105,7 +105,7 @@ class Program:
         except OSError as error:
             raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
         except UnicodeDecodeError:
-            remedy = "Save it as UTF-8, or remove it."
+            remedy = "Save it as UTF-8."
             raise ProgramError("the program is not text in UTF-8", where=str(path), remedy=remedy) from None
 
     def run(

@@ -28,7 +28,7 @@ __getattr__, __all__ = export_lazily(
         "family_step": "choose_next_step",
         "status": (
             "GIVEN NO_LABEL SOURCE_WORDS AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState "
-            "PropagationState Status format_next format_step"
+            "PropagationState Status StepKind format_next format_step"
         ),
     },
 )

@@ -54,5 +54,6 @@ from meshforge.project.status import OpenQuestion as OpenQuestion
 from meshforge.project.status import OutputState as OutputState
 from meshforge.project.status import PropagationState as PropagationState
 from meshforge.project.status import Status as Status
+from meshforge.project.status import StepKind as StepKind
 from meshforge.project.status import format_next as format_next
 from meshforge.project.status import format_step as format_step

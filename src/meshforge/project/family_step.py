@@ -4,6 +4,7 @@
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import pluralize, quote_path
@@ -13,8 +14,8 @@ from meshforge.store import Layout
 
 
 def choose_next_step(state: FamilyState) -> NextStep:
-    """Return the first thing that is missing."""
-    return (
+    """Return the first thing that is missing; where it is being done, the text says so."""
+    step = (
         _decompose(state)
         or (None if state.is_begun else _begin(state))
         or _wait_for_learning(state)
@@ -28,6 +29,7 @@ def choose_next_step(state: FamilyState) -> NextStep:
         or _review(state)
         or _end(state)
     )
+    return replace(step, text=state.running[step.kind]) if step.kind in state.running else step
 
 
 def _decompose(state: FamilyState) -> NextStep | None:
@@ -162,15 +164,12 @@ def _wait_for_learning(state: FamilyState) -> NextStep | None:
 
 def _continue_demonstration(state: FamilyState) -> NextStep | None:
     """Where just one asset is demonstrated and nothing else was done yet, more steps may come."""
-    examples = [asset for asset in state.assets if asset.demonstrated]
-    others = [
-        asset.id
-        for asset in state.assets
-        if asset.hulls and not asset.demonstrated and asset.result_status.state in ("unknown", "needs review")
-    ]
-    if len(examples) != 1 or not others or state.has_replies or any(asset.output != "none" for asset in state.assets):
+    examples = [asset.id for asset in state.assets if asset.demonstrated]
+    is_open = ("unknown", "needs review")
+    others = [a.id for a in state.assets if a.hulls and not a.demonstrated and a.result_status.state in is_open]
+    if state.has_replies or len(examples) != 1 or not others or any(asset.output != "none" for asset in state.assets):
         return None
-    text = f"Show the next step on {examples[0].id}, or see what the program does on {others[0]}."
+    text = f"Show the next step on {examples[0]}, or see what the program does on {others[0]}."
     return _step(state, "demonstrate", text, asset=others[0])
 
 
@@ -220,6 +219,9 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
     why = f"{_count_assets(bare, 'has', 'have')} no label"
     if not state.vocabulary:  # they get classes when the program is applied
         return None
+    if any(asset.result_status.state == "signed off" for asset in state.assets):
+        text = f"{_count_assets(bare, 'is', 'are')} new: apply the program, which labels them like the others first."
+        return _step(state, "apply", text, "apply")
     if step := _take_offers(state, bare):
         return step
     if _has_whole(state):

@@ -91,21 +91,40 @@ NEW_ASSET_DEFAULTS = NewAssetOptions()
 
 
 def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
-    """Return the assets that came to a project after the others were prepared; and why they are not decomposed, where
-    it is unclear how."""
+    """Return the assets that came to a project after the others were prepared, or signed off, and have no label; and
+    why they are not decomposed, where it is unclear how."""
     plans, unclear = find_new_assets(store)
+    plans = {**dict.fromkeys(_find_unlabelled(store), PreparationPlan()), **plans}
     layout = store.layout
     return [
         NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one)) for one, plan in plans.items()
     ], unclear
 
 
+def _find_unlabelled(store: Store) -> list[str]:
+    """The assets without labels of a family with names of which some are signed off, where the program asks for
+    labels; without names they get classes when it runs."""
+    program = store.program()
+    if program is None or not store.settings.vocabulary or not program.labels_asked or not store.sign_offs():
+        return []
+    assets, excluded = store.assets(), store.exclusions()
+    bare = [asset for asset in assets if asset not in excluded and not _has_labels(store, asset)]
+    return bare if len(bare) < len(assets) else []
+
+
+def _has_labels(store: Store, asset: str) -> bool:
+    try:
+        return bool(store.labels(asset).labels)
+    except MeshForgeError:  # whatever reads them says so
+        return True
+
+
 def prepare_new(
     store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS, only: Collection[str] | None = None
 ) -> Iterator[NewAssetResult]:
-    """Prepare the assets that came to a project after the others were prepared, as these were; `prepare --undo` takes
-    it back, and it is not done again then. only: of these ids, all when None. Raises ProjectError where what the
-    project keeps of that is damaged."""
+    """Prepare the assets that came to a project after the others were prepared or signed off, as these were;
+    `prepare --undo` takes it back, and it is not done again then. only: of these ids, all when None. Raises
+    ProjectError where what the project keeps of that is damaged."""
     new, unclear = list_new(store)
     if not (chosen := [one for one in new if only is None or one.id in only]):
         return

@@ -2,7 +2,7 @@
 them. Each change is an entry of the project's history."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -264,15 +264,15 @@ def try_decomposition(
     Raises AssetError where it cannot be read, MeshForgeError where its process died, StoppedError.
     """
     options = {"only": plan.only, "hollow": plan.hollow, "by": plan.by}
-    cache_folder().mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(dir=cache_folder()) as new:  # else what is known from before would take no time
+    with TemporaryDirectory(ignore_cleanup_errors=True) as new:  # else what is known from before would take no time
         folder, cache = store.layout.preparation(asset), {"cache": Path(new)}
         work = _DecomposeWork(store.path(asset), folder, plan.settings, options | cache, pieces / "0")
         begun = monotonic()
         (result,) = batch.run_isolated(_decompose_one, [work], execution)
         seconds = monotonic() - begun
-        for path in filter(Path.is_file, Path(new).iterdir()):
-            path.replace(cache_folder() / path.name)
+        with suppress(OSError):  # a cache that cannot be written
+            for path in Path(new).rglob("*.npz"):
+                write_atomically(cache_folder() / path.relative_to(new), path.read_bytes())
     if isinstance(result, str):
         raise AssetError(result)
     if isinstance(result, batch.WorkerFailure):

@@ -193,7 +193,8 @@ class FamilyState:
     other labels, demonstrations, replies or settings than there are now; problem: why it cannot be applied;
     suggest_first: which of some assets, by id, is to be demonstrated first; find_offers: labels in files and names.
     is_judged: whether nothing is being learned, and it is known how sure the results are; shown: the step that a page
-    shows; has_replies: whether people said anything of results or questions, as all do who use commands.
+    shows; has_replies: whether people said anything of results or questions, as all do who use commands; running: the
+    titles of jobs, by the kinds of steps that they do.
     """
 
     folder: Path
@@ -209,6 +210,7 @@ class FamilyState:
     is_judged: bool = True
     shown: NextStep | None = None
     has_replies: bool = True
+    running: Mapping[StepKind, str] = field(default_factory=dict)
     suggest_first: Callable[[Sequence[str]], str | None] = field(default=lambda assets: None)
     find_offers: Callable[[], labels.LabelOffers] = field(default=lambda: labels.LabelOffers())
 

@@ -238,6 +238,8 @@ def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestio
     for name in (one for one in {**dict.fromkeys(found.need_review), **failures} if one in family.places):
         uncertainty = 1 - found.assets[name].confidence
         place = family.places[name]
+        if family.runs[place].error and not any(hull.label for hull in family.state.meshes[name].hulls):
+            continue  # it is labelled before the program is applied, or by hand
         run, trust = family.runs[place], family.evidence[place].labels ** _TRUST
         splits = [split for rule in family.candidates for split in split_candidates(rule, [place])]
         others = _gains_of(family, splits, looks=1)

@@ -245,7 +245,7 @@ def read_lines(path: Path) -> str:
     except FileNotFoundError:
         return ""
     except UnicodeDecodeError as error:
-        remedy = "Save it as UTF-8, or remove it."
+        remedy = "Correct the file by hand, or remove it: it is text in UTF-8."
         raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path), remedy=remedy) from error
     except OSError as error:
         raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error

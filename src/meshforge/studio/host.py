@@ -2,7 +2,7 @@
 
 import multiprocessing
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 from threading import Lock, RLock
@@ -79,9 +79,10 @@ class Host:
             return self.session
 
     def _remember(self, session: Session) -> None:
-        """Put a project first among the recent ones, with how far it is."""
+        """Put a project first among the recent ones, with how far it is; a damaged one stays where it was."""
         project = session.project
-        self._start.recent.add(project.folder, project.name, len(project.assets()), session.describe_state())
+        with suppress(MeshForgeError):
+            self._start.recent.add(project.folder, project.name, len(project.assets()), session.describe_state())
 
     def leave(self) -> None:
         """Close the project, and show the start page. Raises ConflictError where the studio was started on one."""

@@ -68,6 +68,11 @@ class PageState:
         return tuple(card.asset for card in self.cards if card.hulls)
 
     @property
+    def running_jobs(self) -> tuple[Job, ...]:
+        with self._lock:
+            return tuple(job for job in self._jobs.values() if job.state == "running")
+
+    @property
     def count(self) -> int:
         """How many assets there are."""
         return len(self._cards)

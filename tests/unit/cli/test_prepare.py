@@ -106,6 +106,7 @@ def test_prepare_as_json_has_a_line_for_each_asset(run: Run, project: str) -> No
         "problems": [],
         "undone": [],
         "planned": [],
+        "found": [],
         "hulls": [],
     }
     assert [entry["what"] for entry in stand["made"]] == ["frame/body", "cover"]

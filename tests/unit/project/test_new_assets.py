@@ -11,6 +11,7 @@ from meshforge.batch import IN_PROCESS, ExecutionOptions, read_preparation
 from meshforge.common import format_share
 from meshforge.geometry import volume_of_union
 from meshforge.labels.spans import FinePieces, find_pieces
+from meshforge.language import Program
 from meshforge.project import (
     NewAsset,
     NewAssetOptions,
@@ -20,6 +21,7 @@ from meshforge.project import (
     prepare_new_assets,
     read_preparation_plan,
 )
+from meshforge.store.sign_off import SignOff, SignOffBasis
 from meshforge.symbolic import Label, read_labels
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import PARTS, boxes, coarse, create_stools, write_stool
@@ -136,6 +138,24 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
+
+
+@pytest.mark.parametrize("is_signed", [True, False])
+def test_assets_without_labels_are_new_to_a_family_that_is_signed_off(tmp_path: Path, is_signed: bool) -> None:
+    project = create_stools(tmp_path, {"a": (0.2, 0.4), "b": (0.22, 0.45)}, "")
+    project.write_program(Program.parse("Is(leg) => Delete"))
+    if is_signed:
+        digests: dict[str, Any] = {"asset": {}, "templates": {}, "labels": None, "manual_edits": None}
+        basis = SignOffBasis.model_validate(digests | dict.fromkeys(("program", "settings", "software"), ""))
+        signed = SignOff(asset="a.urdf", by="person", when="2026-01-01", probability=1, rests_on=basis)
+        project.write_sign_offs({"a.urdf": signed})
+    write_stool(tmp_path / "assets", "c", None, boxes(0.18, 0.38))
+    later = Project.open(project.folder)
+    found = list(later.prepare_new(NewAssetOptions(execution=IN_PROCESS)))
+    assert [one.asset for one in found] == ["c.urdf"] * is_signed
+    labels = [hull.annotation and hull.annotation.name for hull in later.mesh("c.urdf").hulls]
+    assert labels == (list(PARTS) if is_signed else [None] * 5)
+    assert list(later.prepare_new()) == []
 
 
 def test_labelled_assets_that_could_not_be_compared_are_named(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

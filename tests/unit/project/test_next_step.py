@@ -128,6 +128,13 @@ def test_the_sentence_stays_while_it_is_being_learned_what_is_next_and_nothing_i
     assert choose(SHOWN, problem="no template", shown=asked, **busy).kind == "fix-program"
 
 
+def test_what_is_being_done_is_said_in_place_of_what_to_do() -> None:
+    bare = asset(labels="", sources=1)
+    step = choose(bare, running={"decompose": "Decomposing 1 asset"})
+    assert (step.kind, step.text) == ("decompose", "Decomposing 1 asset")
+    assert choose(bare, running={"apply": "Applying"}) == choose(bare)
+
+
 def test_after_the_first_rule_the_demonstration_goes_on_until_something_else_is_done() -> None:
     b, c = replace(LABELLED, id="b"), replace(LABELLED, id="c")
     asked = OpenQuestion("other", "b")

@@ -4,14 +4,17 @@ import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, Failed
 from meshforge.common import AssetError, ProjectError
 from meshforge.formats import load
+from meshforge.geometry.decomposition import engines
 from meshforge.language import Delete, Merge
-from meshforge.project import Project
+from meshforge.project import DecompositionPlan, Project
+from meshforge.project.prepare import count_copies, try_decomposition
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
 from tests.unit.batch.preparation.samples import QUICK, write_boxes, write_stand
@@ -63,6 +66,28 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
         list(project.decompose(settings=QUICK, execution=ExecutionOptions(workers=workers)))
         found.append(tree(project.folder / "prepared"))
     assert len(found[0]) == 4 and found[0] == found[1]
+
+
+@pytest.mark.slow
+def test_equal_copies_are_decomposed_once_and_a_try_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
+    for name in "abc":
+        write_stand(tmp_path / "assets" / name)
+    project = Project.create(tmp_path / "p", [tmp_path / "assets"])
+    runs, before = Mock(wraps=engines.run_engines), tree(project.folder)
+    monkeypatch.setattr(engines, "run_engines", runs)
+    (tmp_path / "pieces").mkdir()
+    plan = DecompositionPlan(QUICK)
+    for _ in range(2):  # what is known from before is made anew, so that the seconds are right
+        tried, seconds = try_decomposition(project, project.assets()[0], plan, IN_PROCESS, tmp_path / "pieces")
+        assert seconds > 0 and tree(project.folder) == before
+    done = list(project.decompose(settings=QUICK, execution=ExecutionOptions(workers=2)))
+    made = [entry for one in done for entry in one.made]
+    assert (runs.call_count, len(made), count_copies(made)) == (4, 6, 4)
+    assert len({json.dumps(list(one.made[0].made.values())) for one in done}) == 1
+    assert done[0].made == tried.made
 
 
 @pytest.mark.slow

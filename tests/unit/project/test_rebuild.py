@@ -45,6 +45,16 @@ def rebuild(project: Project, *assets: str, sure: float = SURE, **more: object) 
     return list(project.rebuild_spanning(assets or None, how, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
 
 
+def test_bodies_are_chosen_and_what_was_dismissed_is_not_found_again(project: Project) -> None:
+    (found,) = (one for result in rebuild(project, dry_run=True) for one in result.found)
+    assert (found.hull, found.body, found.labels) == ("base/h0", "base", ("seat", "leg"))
+    before = files(project)
+    assert not [one.made for one in rebuild(project, bodies={"c.urdf": ["lid"], "a.urdf": []}) if one.made]
+    assert files(project) == before, "another body"
+    project.dismiss_spanning({"c.urdf": ["base/h0"]})
+    assert not [one.found for one in rebuild(project) if one.found]
+
+
 def files(project: Project) -> dict[str, bytes]:
     kept = (path for path in project.folder.rglob("*") if path.is_file() and ".meshforge" not in path.parts)
     return {str(path.relative_to(project.folder)): path.read_bytes() for path in kept}

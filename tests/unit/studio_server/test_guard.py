@@ -13,8 +13,8 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from meshforge.common import UsageError
-from meshforge.studio.api.address import LastAddress
 from meshforge.studio.api.connection import PROTOCOL, Guard
+from meshforge.studio.api.server import LastAddress
 
 TOKEN = "a-token_1"
 NONE: list[str] = []

@@ -14,6 +14,7 @@ from meshforge.studio.pages import PageConnection, PageHub, PageState
 from meshforge.studio.session.refresh import Refresher
 from meshforge.studio.wire.events import OutcomeChanged, ProgramChanged, ProjectChanged
 from meshforge.studio.wire.family import Card, OrientView, ProjectView
+from meshforge.studio.wire.jobs import Job
 from meshforge.studio.wire.program import OutcomeView, ProgramView
 from meshforge.studio.workers import Workers
 from tests.studio_project import demo_project
@@ -82,6 +83,26 @@ def test_the_next_step_is_never_to_learn_what_is_being_learned(tmp_path: Path) -
     assert next_text() == "The program is being learned."
     shown.show(OutcomeChanged(outcome=OutcomeView(number=1, status="found", program="All => Delete\n"), learning=False))
     assert "Apply" in next_text()
+
+
+def test_the_next_step_is_never_what_a_job_does_now(tmp_path: Path) -> None:
+    project = demo_project(tmp_path)
+    (project.folder / "program.mf").write_text("All => Delete\n")
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1")
+    checks, history = OutputChecks(tmp_path / "checks", Workers(1)), History.open(project.folder)
+    refresher = Refresher(lambda: project, shown, checks, LabelChanges(history), OfferCache())
+    shown.set_assets(project.assets())
+    shown.show(ProgramChanged(program=ProgramView(text="All => Delete\n", version="1")))
+    refresher.refresh(project.assets())
+    assert "Apply" in shown.shown.project.next.text
+    job = Job(id="1", kind="apply", title="Applying the program to 14 assets")
+    refresher.show_job(job)
+    assert shown.shown.project.next.text == job.title, "at once"
+    refresher.refresh(())
+    assert shown.shown.project.next.text == job.title
+    refresher.show_job(job.model_copy(update={"state": "cancelled"}))
+    refresher.refresh(())
+    assert "Apply the program" in shown.shown.project.next.text
 
 
 def test_a_project_that_cannot_be_read_shows_what_its_settings_say_now(tmp_path: Path) -> None:

@@ -82,9 +82,9 @@ test("a step to label-all is done at once, unless it is being done", async () =>
   expect(nextText(useProject.getState())).toBe("Look.");
   await run("Alt+Enter");
   await vi.waitFor(() => expect(started).toHaveBeenCalledOnce());
-  useProject.setState({ jobs: [{ id: "1", kind: "label", title: "Working", done: 3, total: 9, doing: "", left: null, state: "running", message: "", lines: [], out: null }] });
+  useProject.setState({ jobs: [{ id: "1", kind: "label", title: "Look.", done: 3, total: 9, doing: "", left: null, state: "running", message: "", lines: [], out: null }] });
   await run("Alt+Enter");
-  expect([started.mock.calls.length, nextText(useProject.getState())]).toEqual([1, "Working: 3 of 9"]);
+  expect([started.mock.calls.length, nextText(useProject.getState())]).toEqual([1, "Look.: 3 of 9"]);
 });
 
 test("undo is there only if there is something to undo", () => {

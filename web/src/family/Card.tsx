@@ -1,21 +1,6 @@
 // One asset: its picture, name, number of hulls, and signs for how it stands, each a shape of its own with its words
 // behind it.
-import {
-  Boxes,
-  Check,
-  CircleAlert,
-  CircleDashed,
-  CircleDot,
-  CircleQuestionMark,
-  Flag,
-  Hand,
-  type LucideIcon,
-  Pencil,
-  RefreshCw,
-  Tag,
-  TriangleAlert,
-  X,
-} from "lucide-react";
+import { Boxes } from "lucide-react";
 import { memo, type MouseEvent, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
 import { openDecompose } from "../store/decompose";
@@ -30,7 +15,7 @@ import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import type { Card as CardData } from "../wire";
 import css from "./card.module.css";
-import { type Badge, badgesOf, cardText, fitBadges } from "./cardText";
+import { type Badge, badgesOf, cardText, fitBadges, SIGNS } from "./cardText";
 
 interface CardProps {
   asset: string;
@@ -174,28 +159,12 @@ function MakeHulls({ asset }: { asset: string }) {
   );
 }
 
-/** Small signs on a card, each a shape of its own with its words behind it. */
-export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
-  unlabelled: Tag,
-  unsure: CircleDashed,
-  demonstrated: CircleDot,
-  edited: Pencil,
-  stale: RefreshCw,
-  accepted: Check,
-  wrong: X,
-  flagged: Flag,
-  failed: CircleAlert,
-  corrected: Hand,
-  findings: TriangleAlert,
-  "needs review": CircleQuestionMark,
-};
-
 /** room: for signs and their counts [px]. */
 function Badges({ all, room }: { all: readonly Badge[]; room: number }) {
   return (
     <span className={css.badges}>
       {fitBadges(all, room).map(({ name, count, old }) => {
-        const Icon = ICONS[name];
+        const { Icon } = SIGNS[name];
         return (
           <span key={name} className={css.badge} data-badge={name} data-old={old}>
             <Icon size={12} aria-hidden />

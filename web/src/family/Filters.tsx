@@ -5,8 +5,7 @@ import { countByFilter, FILTERS } from "../store/family";
 import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
 import { choiceLines, Menu } from "../ui/Menu";
-import { ICONS } from "./Card";
-import { MEANINGS } from "./cardText";
+import { SIGNS } from "./cardText";
 import css from "./family.module.css";
 
 const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
@@ -72,7 +71,7 @@ function Chips() {
   return (
     <div className={css.chips} role="group" aria-label="Show only">
       {there.map((name) => {
-        const Icon = ICONS[name];
+        const { Icon, meaning } = SIGNS[name];
         const on = only.includes(name);
         return (
           <button
@@ -81,7 +80,7 @@ function Chips() {
             className={css.chip}
             aria-pressed={on}
             data-badge={name}
-            title={`${on ? `Do not show only ${name}` : `Show only ${name}`}: ${MEANINGS[name]}`}
+            title={`${on ? `Do not show only ${name}` : `Show only ${name}`}: ${meaning}`}
             onClick={() => setFilters({ only: on ? only.filter((one) => one !== name) : [...only, name] })}
           >
             <Icon size={12} aria-hidden />

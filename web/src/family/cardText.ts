@@ -1,4 +1,5 @@
 // Signs and words on cards, and what a screen reader says.
+import { Check, CircleAlert, CircleDashed, CircleDot, CircleQuestionMark, Flag, Hand, type LucideIcon, Pencil, RefreshCw, Tag, TriangleAlert, X } from "lucide-react";
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
 import { flagsOf } from "../store/goals";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
@@ -15,20 +16,20 @@ export interface Badge {
   old?: boolean;
 }
 
-/** What each sign means, also in the legend. */
-export const MEANINGS: Readonly<Record<Badge["name"], string>> = {
-  failed: "The program fails on it, or it cannot be read",
-  wrong: "You called its result wrong",
-  flagged: "Its result is flagged, for example as a goal fails",
-  "needs review": "Its result needs review",
-  accepted: "You accepted its result",
-  stale: "Its result is not up to date",
-  findings: "Findings of the checks, with their number",
-  demonstrated: "You showed steps on it",
-  corrected: "Edits by hand, with their number",
-  edited: "Edited by the program",
-  unsure: "Labels that are not sure, with their number",
-  unlabelled: "Hulls without a label, with their number; not shown while no hull of the family has one",
+/** Signs, each a shape of its own, and what they mean. */
+export const SIGNS: Readonly<Record<Badge["name"], { Icon: LucideIcon; meaning: string }>> = {
+  failed: { Icon: CircleAlert, meaning: "The program fails on it, or it cannot be read" },
+  wrong: { Icon: X, meaning: "You called its result wrong" },
+  flagged: { Icon: Flag, meaning: "Its result is flagged, for example as a goal fails" },
+  "needs review": { Icon: CircleQuestionMark, meaning: "Its result needs review" },
+  accepted: { Icon: Check, meaning: "You accepted its result" },
+  stale: { Icon: RefreshCw, meaning: "Its result is not up to date" },
+  findings: { Icon: TriangleAlert, meaning: "Findings of the checks, with their number" },
+  demonstrated: { Icon: CircleDot, meaning: "You showed steps on it" },
+  corrected: { Icon: Hand, meaning: "Edits by hand, with their number" },
+  edited: { Icon: Pencil, meaning: "Edited by the program" },
+  unsure: { Icon: CircleDashed, meaning: "Labels that are not sure, with their number" },
+  unlabelled: { Icon: Tag, meaning: "Hulls without a label, with their number; not shown while no hull of the family has one" },
 };
 
 /** How an asset stands, what matters most first; engine: whose limits count; isBare: whether no hull of the family has a label. */
@@ -52,13 +53,13 @@ export function badgesOf(card: Card, engine = "", isBare = false): readonly Badg
   return out.filter((badge) => badge !== false);
 }
 
-const SIGN = 16; // pixels that a sign takes
+const WIDE = 16; // pixels that a sign takes
 const DIGIT = 7;
 
 /** The first, and those after it that fit into a width [px]; all stand in the tooltip. */
 export function fitBadges(all: readonly Badge[], room: number): readonly Badge[] {
   let left = room;
-  return all.filter(({ count }, k) => (left -= SIGN + (count === undefined ? 0 : DIGIT * String(count).length)) >= 0 || k === 0);
+  return all.filter(({ count }, k) => (left -= WIDE + (count === undefined ? 0 : DIGIT * String(count).length)) >= 0 || k === 0);
 }
 
 /** A card as a screen reader says it. */

@@ -8,8 +8,6 @@ import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
 
 type IdPictureProps = Source & {
-  /** Named for screen readers, where there is no label. */
-  asset?: string;
   /** What a screen reader says; empty where words beside it say the same. */
   label?: string;
   /** The colour of the hull in a place, in CSS; -1 stands for geometry that is no hull. */
@@ -20,7 +18,7 @@ type IdPictureProps = Source & {
   className?: string;
 };
 
-export function IdPicture({ asset, label, colors, fill, width, className, ...source }: IdPictureProps) {
+export function IdPicture({ label, colors, fill, width, className, ...source }: IdPictureProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { map, current, failed } = useIdMap(source.png ? { png: source.png } : { url: source.url ?? "" });
   const [drawn, setDrawn] = useState(false);
@@ -35,7 +33,7 @@ export function IdPicture({ asset, label, colors, fill, width, className, ...sou
       setDrawn(true);
     });
   }, [map, current, paint, look]);
-  const said = label ?? (asset === undefined ? "Picture of an asset" : `Picture of ${asset}`);
+  const said = label ?? "Picture of an asset";
   return (
     <div
       className={[css.picture, className].filter(Boolean).join(" ")}
@@ -63,7 +61,7 @@ interface Had {
 function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; failed: boolean } {
   const [{ map, of }, setMap] = useState<Had>(() => ({ map: url === undefined ? null : findPicture(url), of: url }));
   const [failed, setFailed] = useState(false);
-  const connected = useProject((state) => state.connected);
+  const health = useProject((state) => `${state.connected} ${state.project.problem}`);
   useEffect(() => {
     const there = url === undefined ? null : findPicture(url);
     if (there) {
@@ -91,7 +89,7 @@ function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; 
       clearTimeout(timer);
       drop?.();
     };
-  }, [url, png, connected]);
+  }, [url, png, health]);
   return { map, current: of === (png ?? url), failed };
 }
 

@@ -60,8 +60,9 @@ function Window() {
 function Columns() {
   const { family, panel } = useWorkspace((workspace) => workspace.columns);
   const open = useLayout((layout) => layout.family && !layout.gallery);
-  const widen = (change: Partial<{ family: number; panel: number }>) =>
-    useWorkspace.setState(({ columns }) => ({ columns: { ...columns, ...change } }));
+  // a column takes less than half of the window, see the style
+  const widen = (which: "family" | "panel") => (width: number) =>
+    useWorkspace.setState(({ columns }) => ({ columns: { ...columns, [which]: Math.min(width, 0.45 * window.innerWidth) } }));
   return (
     <div className={css.columns}>
       {open && (
@@ -73,15 +74,13 @@ function Columns() {
             edge="right"
             value={family}
             range={WIDTHS.family}
-            onChange={(width) => widen({ family: width })}
+            onChange={widen("family")}
             onCollapse={() => setLayout({ family: false })}
           />
         </aside>
       )}
       <Centre />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
-        <StageColumn />
-        <Toasts />
         <Divider
           name="Width of the panel"
           along="x"
@@ -89,8 +88,10 @@ function Columns() {
           flipped
           value={panel}
           range={WIDTHS.panel}
-          onChange={(width) => widen({ panel: width })}
+          onChange={widen("panel")}
         />
+        <StageColumn />
+        <Toasts />
       </aside>
     </div>
   );

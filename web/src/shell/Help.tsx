@@ -1,11 +1,10 @@
 // All commands with their keys, and how it goes in four lines.
 import { X } from "lucide-react";
 import { Dialog } from "radix-ui";
-import { useState } from "react";
+import { type ReactNode, useState } from "react";
 import type { Command } from "../commands/command";
 import { foldCommands, listCommands } from "../commands/list";
-import { ICONS } from "../family/Card";
-import { MEANINGS } from "../family/cardText";
+import { SIGNS } from "../family/cardText";
 import { startTour } from "../store/tour";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
@@ -72,7 +71,7 @@ function Content() {
           {groups
             .filter(({ commands }) => commands.length > 0)
             .map(({ group, commands }) => (
-              <Group key={group} name={group} commands={commands} />
+              <Commands key={group} name={group} commands={commands} />
             ))}
           {!word && <Signs />}
         </div>
@@ -99,49 +98,49 @@ function How() {
 /** What the signs on the cards of the family mean. */
 function Signs() {
   return (
-    <div className={css.group} role="group" aria-label="Signs on the cards of the family">
-      <h3>Signs on the cards of the family</h3>
-      <dl>
-        {Object.entries(MEANINGS).map(([name, text]) => {
-          const Icon = ICONS[name as keyof typeof MEANINGS];
-          return (
-            <div key={name} className={css.pair}>
-              <dt>{text}</dt>
-              <dd>
-                <Icon size={14} role="img" aria-label={name} />
-              </dd>
-            </div>
-          );
-        })}
-      </dl>
+    <Group name="Signs on the cards of the family">
+      {Object.entries(SIGNS).map(([name, { Icon, meaning }]) => (
+        <Row key={name} what={meaning}>
+          <Icon size={14} role="img" aria-label={name} />
+        </Row>
+      ))}
+    </Group>
+  );
+}
+
+function Commands({ name, commands }: { name: string; commands: readonly Command[] }) {
+  return (
+    <Group name={name}>
+      {foldCommands(commands).map(({ id, title, keys }) => (
+        <Row key={id} what={title}>
+          {keys.map((key) => (
+            <kbd key={key}>{key}</kbd>
+          ))}
+        </Row>
+      ))}
+      {name === "Go" && (
+        <Row what="Next part of the window, previous">
+          <kbd>F6</kbd> <kbd>Shift+F6</kbd>
+        </Row>
+      )}
+    </Group>
+  );
+}
+
+function Group({ name, children }: { name: string; children: ReactNode }) {
+  return (
+    <div className={css.group} role="group" aria-label={name}>
+      <h3>{name}</h3>
+      <dl>{children}</dl>
     </div>
   );
 }
 
-function Group({ name, commands }: { name: string; commands: readonly Command[] }) {
+function Row({ what, children }: { what: string; children: ReactNode }) {
   return (
-    <div className={css.group} role="group" aria-label={name}>
-      <h3>{name}</h3>
-      <dl>
-        {foldCommands(commands).map((command) => (
-          <div key={command.id} className={css.pair}>
-            <dt>{command.title}</dt>
-            <dd>
-              {command.keys.map((key) => (
-                <kbd key={key}>{key}</kbd>
-              ))}
-            </dd>
-          </div>
-        ))}
-        {name === "Go" && (
-          <div className={css.pair}>
-            <dt>Next part of the window, previous</dt>
-            <dd>
-              <kbd>F6</kbd> <kbd>Shift+F6</kbd>
-            </dd>
-          </div>
-        )}
-      </dl>
+    <div className={css.pair}>
+      <dt>{what}</dt>
+      <dd>{children}</dd>
     </div>
   );
 }

@@ -60,7 +60,7 @@ function actionOf(key: string): (() => unknown) | undefined {
 /** Whether a key may mean something once the commands that are on their way are done. */
 const isCommand = (key: string): boolean => listCommands().some((command) => command.keys.includes(key));
 
-const FOCUSABLE = "button:not(:disabled), input:not([hidden]), [tabindex='0'], [role=tab][aria-selected=true]";
+const FOCUSABLE = "button:not(:disabled), input:not([hidden]), [tabindex='0']:not([role=separator]), [role=tab][aria-selected=true]";
 
 /** Puts the focus on the next part, or the one before, that can take it. */
 function toNextPart(by: 1 | -1): void {

@@ -99,7 +99,7 @@ export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): 
 
 /** Hulls of a group, by their keys, that get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
-type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;
+export type HullInQuestion = Pick<ReviewQuestionView["hulls"][number], "asset" | "hull">;
 export const keyOf = ({ asset, hull }: HullInQuestion): string => `${asset}#${hull}`;
 
 /** The label that a hull of a group gets; null where it is left out. */

@@ -1,30 +1,20 @@
-// The next step as the page shows it: the server's sentence, or how far the job is that does what it says.
-import type { Job, NextStep } from "../wire";
-import type { ProjectState } from "./project";
-import { useProject } from "./project";
+// The next step as the page shows it: the server's sentence, with how far the job is that it names.
+import type { Job } from "../wire";
+import { type ProjectState, useProject } from "./project";
 import { STAGE_OF, useWorkspace } from "./workspace";
 
-/** Jobs that do what a step says. */
-const JOBS: Partial<Record<NextStep["kind"], readonly Job["kind"][]>> = {
-  wait: ["read"],
-  decompose: ["decompose"],
-  "label-all": ["label"],
-  label: ["label"],
-  "check-labels": ["label"],
-  apply: ["apply"],
-  export: ["export"],
-};
+type State = Pick<ProjectState, "project" | "jobs">;
 
-/** The job that does what the next step says, null where none is running. */
-export function jobOfNext({ project: { next }, jobs }: Pick<ProjectState, "project" | "jobs">): Job | null {
-  return jobs.findLast(({ kind, state }) => state === "running" && JOBS[next.kind]?.includes(kind)) ?? null;
-}
+/** The job that the next step names, until it is over and another step is next; null where there is none. */
+export const jobOfNext = ({ project: { next }, jobs }: State): Job | null => jobs.findLast(({ title }) => title === next.text) ?? null;
 
-/** `Decomposing 9 assets: 3 of 9`; without a job that runs, the sentence of the step. */
-export function nextText(state: Pick<ProjectState, "project" | "jobs">): string {
+/** `Decomposing 9 assets: 3 of 9`; without a job, the sentence of the step. */
+export function nextText(state: State): string {
+  const { text } = state.project.next;
   const job = jobOfNext(state);
-  if (!job) return state.project.next.text;
-  return job.total ? `${job.title}: ${job.done} of ${job.total}` : `${job.title}…`;
+  if (!job) return text;
+  const doing = job.doing && job.doing !== text.toLowerCase() ? `${text}, ${job.doing}` : text;
+  return job.done < job.total ? `${doing}: ${job.done} of ${job.total}` : `${doing}…`;
 }
 
 /** Whether there is nothing to go to or to do: one is there, or has to wait. */

@@ -77,6 +77,6 @@ test("a problem goes when the same act succeeds, or the server is back, and is k
   answer(200);
   await edit("steps", "b");
   expect(texts()).toEqual([]);
-  expect(useToasts.getState().problems.map(({ text }) => text)).toEqual(["The studio's server does not answer.", "problem 400", "problem 400"]);
+  expect(useToasts.getState().problems.map(({ text }) => text)).toEqual(["The studio's server does not answer.", "problem 400"]);
   vi.unstubAllGlobals();
 });

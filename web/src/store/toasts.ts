@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { answers, ServerProblem } from "../server/http";
 import type { Problem } from "../wire";
+import { useProject } from "./project";
 
 export interface Toast {
   id: number;
@@ -18,11 +19,15 @@ export interface Toast {
 export const useToasts = create<{ toasts: readonly Toast[]; problems: readonly (Toast & { at: Date })[] }>()(() => ({ toasts: [], problems: [] }));
 const MOST_PROBLEMS = 50;
 const ANY = "any";
-answers.add((act) => {
-  const { toasts } = useToasts.getState();
-  const left = toasts.filter((toast) => toast.act === null || (toast.act !== ANY && toast.act !== act));
-  if (left.length < toasts.length) useToasts.setState({ toasts: left });
+answers.add((act) => drop((toast) => toast.act === ANY || toast.act === act));
+useProject.subscribe(({ project: { problem } }, { project: { problem: before } }) => {
+  if (before && before !== problem) drop(({ text }) => before.startsWith(text));
 });
+
+function drop(isMended: (toast: Toast) => boolean): void {
+  const { toasts } = useToasts.getState();
+  if (toasts.some(isMended)) useToasts.setState({ toasts: toasts.filter((toast) => !isMended(toast)) });
+}
 
 let count = 0;
 
@@ -35,7 +40,7 @@ export function reportProblem(problem: Problem, act: string | null = null): void
   const toast: Toast = { id: ++count, kind: "problem", text, remedy: problem.remedy, undo: false, act };
   useToasts.setState(({ toasts, problems }) => ({
     toasts: toasts.filter((one) => one.kind === "done" || one.text !== text), // said again, not twice
-    problems: [{ ...toast, at: new Date() }, ...problems].slice(0, MOST_PROBLEMS),
+    problems: [{ ...toast, at: new Date() }, ...problems.filter((one) => one.text !== text)].slice(0, MOST_PROBLEMS),
   }));
   add(toast);
 }

@@ -1,7 +1,7 @@
 """Hulls for what an asset has none for, by a decomposition engine, and how well they fit what they were made of."""
 
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from glob import escape
@@ -117,11 +117,15 @@ def replace_concave(asset: Asset, how: Concave) -> Asset:
     return record.apply_preparation(asset, done.preparation)
 
 
-def _lock_copies(source: record.DecompositionSource, cache: Path | None) -> AbstractContextManager[None]:
+@contextmanager
+def _lock_copies(source: record.DecompositionSource, cache: Path | None) -> Iterator[None]:
     """A lock by which of pieces with the same geometry one is decomposed; the others find its hulls in the cache."""
-    if cache is None:
-        return nullcontext()
-    return hold_lock(cache / "locks" / record.surface_digest(source.surface)[:2], source.what, wait=inf)
+    with ExitStack() as stack:
+        if cache is not None:
+            with suppress(OSError):  # a cache that cannot be written
+                lock = cache / "locks" / record.surface_digest(source.surface)[:2]
+                stack.enter_context(hold_lock(lock, source.what, wait=inf))
+        yield
 
 
 def _decompose_source(

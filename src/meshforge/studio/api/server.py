@@ -5,8 +5,9 @@ import signal
 import socket
 import webbrowser
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
+from secrets import token_urlsafe
 from threading import Thread
 from types import FrameType
 from typing import Any
@@ -15,15 +16,23 @@ import uvicorn
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
+from pydantic import ValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
-from meshforge.common import MeshForgeError, describe_error, describe_invalid_field, explain_refusal
-from meshforge.store import ConflictError, NotHereError
+from meshforge.batch import text_digest
+from meshforge.common import (
+    MeshForgeError,
+    UsageError,
+    describe_error,
+    describe_invalid_field,
+    explain_refusal,
+    write_atomically,
+)
+from meshforge.store import ConflictError, JsonFile, NotHereError
 from meshforge.studio.api import connection, routes, start
-from meshforge.studio.api.address import ADDRESS, LastAddress
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
@@ -31,6 +40,8 @@ from meshforge.studio.start.page import state_folder
 from meshforge.studio.transfers import TooLargeError
 from meshforge.studio.wire.events import Problem
 
+ADDRESS = "127.0.0.1"
+_PRIVATE = 0o600
 _LOG = logging.getLogger(__name__)
 
 _STATUSES = {ConflictError: 409, NotHereError: 404, TooLargeError: 413, MeshForgeError: 400}
@@ -93,6 +104,54 @@ def _make_config(host: Host, token: str, page: Path) -> uvicorn.Config:
         timeout_graceful_shutdown=2,
         server_header=False,
     )
+
+
+class _LastFile(JsonFile):
+    port: int
+    token: str
+
+
+class LastAddress:
+    """The port and the token that the studio of a project, or the start page, had last: open pages connect by them.
+
+    They lie in the user's state folder, in a file that only the user can read: never in the project, which may be
+    shared or committed. A token is used again on its own port alone.
+    """
+
+    def __init__(self, state: Path, folder: Path | None) -> None:
+        name = text_digest(str(folder.resolve()))[:32] if folder else "start"
+        self._path = state / "addresses" / f"{name}.json"
+
+    def listen(self, port: int | None) -> tuple[socket.socket, str]:
+        """Return a socket on a port, and the token of the studio there, which are kept. port: None takes the last one
+        where it is free, else a free one, as 0 does. Raises UsageError where the port is taken."""
+        last = self._read()
+        if port is None and last:
+            with suppress(UsageError):
+                return _listen(last.port), last.token
+        listening = _listen(port or 0)
+        taken: int = listening.getsockname()[1]
+        token = last.token if last and last.port == taken else token_urlsafe(24)
+        with suppress(OSError):  # a home that cannot be written to: pages have to be opened again
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            self._path.touch(_PRIVATE)  # before anything is in it
+            write_atomically(self._path, _LastFile(port=taken, token=token).model_dump_json())
+        return listening, token
+
+    def _read(self) -> _LastFile | None:
+        try:
+            is_private = self._path.stat().st_mode & 0o777 == _PRIVATE
+            return _LastFile.model_validate_json(self._path.read_bytes()) if is_private else None
+        except (OSError, ValidationError):
+            return None
+
+
+def _listen(port: int) -> socket.socket:
+    try:
+        return socket.create_server((ADDRESS, port))
+    except (OSError, OverflowError) as error:
+        remedy = "Choose another: --port N; 0 takes a free one."
+        raise UsageError(f"port {port} cannot be taken: {error}", remedy=remedy) from None
 
 
 @contextmanager

@@ -118,12 +118,11 @@ def choose_decomposition(project: Project, request: DecomposeOptions) -> Decompo
     plan = read_preparation_plan(project).decompose if request.method is None else ()
     if len(plan) == 1 and not plan[0].only:
         return plan[0]
-    if request.method == "vhacd":
-        given: dict[str, Any] = {"max_convex_hulls": request.most}
-    else:
-        given = {"max_convex_hull": request.most, "threshold": request.threshold}
-    make = VhacdSettings if request.method == "vhacd" else CoacdSettings
-    return DecompositionPlan(make(**{name: value for name, value in given.items() if value is not None}), by=request.by)
+    is_vhacd = request.method == "vhacd"
+    given: dict[str, Any] = {"max_convex_hulls" if is_vhacd else "max_convex_hull": request.most}
+    given |= {} if is_vhacd else {"threshold": request.threshold}
+    options = {name: value for name, value in given.items() if value is not None}
+    return DecompositionPlan(VhacdSettings(**options) if is_vhacd else CoacdSettings(**options), by=request.by)
 
 
 def _decompose_line(result: PreparationResult) -> JobLine:

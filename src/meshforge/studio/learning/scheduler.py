@@ -67,7 +67,7 @@ class LearningScheduler:
 
     def pause(self) -> None:
         """Stop the learning run that is under way, and wait until it no longer writes anything."""
-        self._stop()
+        self._stop(assessing=True)  # as soon as it is resumed
         self._paused = True
         running = self._running
         if running:

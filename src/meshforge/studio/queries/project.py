@@ -35,15 +35,15 @@ def add_session(
     propagation: PropagationState | None,
     problem: str | None,
 ) -> FamilyState:
-    """Return what the next step depends on, with what this session knows; it learns by itself, so no program is
-    outdated."""
+    """Return what the next step depends on, with what this session knows; it learns by itself, so a program is
+    outdated only where nothing is demonstrated any more."""
     rows = {row.asset: row for row in assessment.assets} if assessment else {}
     near = (outcome.nearest.rule, outcome.nearest.asset) if outcome and outcome.nearest else None
     return replace(
         family,
         assets=[_add_confidence(asset, rows.get(asset.id)) for asset in family.assets],
         has_program=bool(program.text) and not program.error,
-        outdated=False,
+        outdated=family.outdated and not any(asset.demonstrated for asset in family.assets),
         problem=problem,
         question=_find_question(assessment),
         last_run=LastRun(outcome.status, outcome.repairs, near) if outcome else None,

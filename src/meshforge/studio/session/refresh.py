@@ -11,9 +11,9 @@ from time import monotonic
 from typing import Any
 
 from meshforge.batch import read_stamp
-from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
+from meshforge.common import MeshForgeError, StoppedError, describe_error, file_state
 from meshforge.labels import OfferCache
-from meshforge.project import AssetStatus, Project, Status, choose_next_step, find_offers, list_new
+from meshforge.project import NO_LABEL, AssetStatus, Project, Status, StepKind, choose_next_step, find_offers, list_new
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
@@ -23,11 +23,18 @@ from meshforge.studio.queries.goals import list_goal_views
 from meshforge.studio.queries.project import add_session, build_card, build_project_view, vocabulary_view
 from meshforge.studio.wire.events import ProjectChanged
 from meshforge.studio.wire.family import Card, NewAssetsView, ProjectView
-from meshforge.studio.wire.jobs import Job
+from meshforge.studio.wire.jobs import Job, JobKind
 
 _LOG = logging.getLogger(__name__)
 _FEWEST, _PORTIONS = 8, 20
 _REPORT_SECONDS = 0.2
+_STEPS_OF: Mapping[JobKind, tuple[StepKind, ...]] = {
+    "decompose": ("decompose",),
+    "label": ("label-all", "label", "check-labels"),
+    "apply": ("apply",),
+    "export": ("export",),
+}
+"""The kinds of steps that jobs do."""
 
 
 class Refresher:
@@ -51,6 +58,15 @@ class Refresher:
         self._new_assets = NewAssetsQuery()
         self._read, self._next_report = 0, 0.0
         self._job: Job | None = None
+
+    def show_job(self, job: Job) -> None:
+        """Show a job, and as the next step what it does, not that it is to be done."""
+        self._pages.set_job(job)
+        step = self._pages.shown.project.next
+        if job.state != "running":
+            self.queue.add()
+        elif step.kind in _STEPS_OF.get(job.kind, ()) and step.text != job.title:
+            self._pages.change_project(next=replace(step, text=job.title))
 
     @property
     def names(self) -> Mapping[str, tuple[str, ...]]:
@@ -108,9 +124,12 @@ class Refresher:
         known = shown.program, shown.outcome, shown.assessment
         is_judged = not shown.learning and (not shown.assessing or shown.assessment is not None)
         feedback = project.feedback()
-        said = bool(feedback.verdicts or feedback.answers or feedback.replied)
+        has_replies = bool(feedback.verdicts or feedback.answers or feedback.replied)
         family = add_session(family, *known, propagation, problem)
-        step = choose_next_step(replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=said))
+        titles = {kind: job.title for job in self._pages.running_jobs for kind in _STEPS_OF.get(job.kind, ())}
+        family = replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=has_replies, running=titles)
+        # what is not looked at yet would be proposed though it is done
+        step = shown.project.next if self.queue.remaining else choose_next_step(family)
         ask_up = find_unclear_up(project, self._pages.with_hulls)
         return build_project_view(project, step, problem, status.lost, propagation, new, ask_up)
 
@@ -133,7 +152,7 @@ class Refresher:
             self._job, self._read = None, 0
 
 
-_Basis = tuple[FileState | None, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]
+_Basis = tuple[object, ...]
 
 
 class NewAssetsQuery:
@@ -146,8 +165,11 @@ class NewAssetsQuery:
 
     def find(self, project: Project, cards: Iterable[Card]) -> tuple[NewAssetsView | None, str | None]:
         """Return the new assets, None where there are none; and why they are not known, where a file is damaged."""
-        done = tuple((card.asset, card.prepared) for card in cards if card.prepared)
-        basis = file_state(project.layout.preparation_plan), project.assets(), done
+        rows = tuple(cards)
+        done = tuple((card.asset, card.prepared) for card in rows if card.prepared)
+        bare = tuple(card.asset for card in rows if all(label == NO_LABEL for label in card.labels))
+        files = file_state(project.layout.preparation_plan), file_state(project.layout.sign_offs)
+        basis = files, file_state(project.layout.program), project.assets(), done, bare
         if basis != self._basis:
             self._basis, self._found = basis, _find_new_assets(project)
         return self._found

@@ -69,7 +69,6 @@ class Session:
             self.hub, view, self.history.state, version("meshforge"), tour=options.tour, leave=options.folder is None
         )
         self.offers = OfferCache()
-        self.jobs = JobRunner(self.pages.set_job)
         self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
         self.similar = SimilarHulls(self._drawers)
         self.checks = OutputChecks(own / "checks", self._checkers)
@@ -77,6 +76,7 @@ class Session:
         # the queue's thread must see the project that is open when it works, not the first one
         refresher = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes, self.offers)
         self.refresh_queue = refresher.queue
+        self.jobs = JobRunner(refresher.show_job)
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
             project.folder, self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add

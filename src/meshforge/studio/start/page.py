@@ -242,8 +242,8 @@ class RecentProjects:
         """Put a project first. state: how far it is, in words; None leaves what was said before."""
         now = datetime.now(UTC).isoformat(timespec="seconds")
         before = next((entry for entry in self._read().projects if entry.folder == str(folder)), None)
-        said = (before.state, before.seen) if state is None and before else (state or "", time())
-        row = _Entry(folder=str(folder), name=name, assets=assets, opened=now, state=said[0], seen=said[1])
+        text, seen = (before.state, before.seen) if state is None and before else (state or "", time())
+        row = _Entry(folder=str(folder), name=name, assets=assets, opened=now, state=text, seen=seen)
         self._change(row.folder, row)
 
     def forget(self, folder: str) -> None:

@@ -1,7 +1,7 @@
 // The hulls that a question is about, each in its place on its asset; exceptions get another label, or are left out.
-import type { MouseEvent } from "react";
+import { type MouseEvent, useMemo } from "react";
 import { Thumbnail } from "../../pictures/Thumbnail";
-import { exceptionOf, type Exceptions, keyOf } from "../../store/assessment";
+import { exceptionOf, type Exceptions, type HullInQuestion, keyOf } from "../../store/assessment";
 import { findOwnParts } from "../../store/commonParts";
 import { useOwnNames, useProject } from "../../store/project";
 import { oncePer } from "../../store/once";
@@ -17,7 +17,7 @@ import css from "./questions.module.css";
 const MOST = 200;
 
 /** Of so few, each is drawn from a side where it is seen. */
-const FEW = 12;
+const FEW = 24;
 
 interface GroupHullsProps {
   question: ReviewQuestionView;
@@ -53,7 +53,7 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
                   aria-label={`Open ${asset} with ${one.hull} selected`}
                   onClick={() => visit(asset, { kind: "source" }, [one.hull])}
                 >
-                  {hulls.length > FEW ? <Thumbnail asset={asset} of="source" highlight={[one.place]} label="" /> : <InSight asset={asset} names={namesOf(one)} />}
+                  {hulls.length > FEW ? <InPlace asset={asset} place={one.place} /> : <InSight asset={asset} names={namesOf(one)} />}
                   {own.length > 1 && <span className={css.where}>{shortOf(one.hull)}</span>}
                 </button>
                 {canVary && (
@@ -74,13 +74,16 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
   );
 }
 
-type HullInQuestion = ReviewQuestionView["hulls"][number];
-
 const namesOf = oncePer((one: HullInQuestion) => [one.hull]);
 
 /** An asset from a side where the hulls in question are seen, or through what hides them. */
 export function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
   return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
+}
+
+/** An asset as its card shows it, with a hull pointed out. */
+function InPlace({ asset, place }: { asset: string; place: number }) {
+  return <Thumbnail asset={asset} of="source" highlight={useMemo(() => [place], [place])} label="" />;
 }
 
 function Label({ name }: { name: string | null }) {

@@ -20,7 +20,7 @@ export function OrientationCard({ question }: { question: ReviewQuestionView }) 
       <h3 id="asked">{question.text}</h3>
       <div className={css.choices}>
         {choices.map(({ id, text, orient }, k) => (
-          <button key={id} type="button" className={css.choice} aria-keyshortcuts={orient ? "Y" : "N"} onClick={doing(picks[k])}>
+          <button key={id} type="button" className={css.choice} data-default={!orient} aria-keyshortcuts={orient ? "Y" : "N"} onClick={doing(picks[k])}>
             <Thumbnail asset={asset} of="source" turned={orient} label="" />
             <strong>
               <kbd>{orient ? "Y" : "N"}</kbd> {toSentence(text).replace(/\.$/, "")}

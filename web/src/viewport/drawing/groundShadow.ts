@@ -48,6 +48,8 @@ export class GroundShadow {
 
   constructor(private readonly set: HullSet) {
     this.object.renderOrder = -2;
+    // the section plane leaves it whole
+    this.object.material.onBeforeCompile = (shader) => (shader.fragmentShader = shader.fragmentShader.replace("#include <clipping_planes_fragment>", ""));
     this.object.visible = false;
   }
 

@@ -1,14 +1,14 @@
 // Lines of a width in pixels, dashed and with a casing where wanted: silhouettes of hulls as outlines, or lines between
 // points.
 import {
-  BufferAttribute,
-  BufferGeometry,
   type Color,
   DoubleSide,
   DynamicDrawUsage,
+  Float32BufferAttribute,
   GreaterDepth,
   Group,
-  InterleavedBuffer,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
   InterleavedBufferAttribute,
   type IUniform,
   LessEqualDepth,
@@ -17,7 +17,7 @@ import {
   Vector2,
 } from "three";
 import { SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
-import { CORNER, type Eye, type Outline, roomFor, writeSilhouettes } from "../geometry/edges";
+import { type Eye, LINE, type Outline, roomFor, writeSilhouettes } from "../geometry/edges";
 
 export interface StrokeStyle {
   /** [px] */
@@ -51,8 +51,8 @@ export class Strokes {
   readonly object = new Group();
   private readonly core: StrokeUniforms;
   private readonly casing: StrokeUniforms | null;
-  private geometry = new BufferGeometry();
-  private buffer = new InterleavedBuffer(new Float32Array(0), CORNER);
+  private geometry = new InstancedBufferGeometry();
+  private buffer = new InstancedInterleavedBuffer(new Float32Array(0), LINE);
   private outlines: readonly Outline[] = [];
   private written = "";
 
@@ -97,9 +97,9 @@ export class Strokes {
     if (room > this.buffer.array.length) this.grow(2 * room);
     const count = writeSilhouettes(this.outlines, explode, eye, this.buffer.array as Float32Array);
     this.buffer.clearUpdateRanges();
-    this.buffer.addUpdateRange(0, 4 * CORNER * count);
+    this.buffer.addUpdateRange(0, LINE * count);
     this.buffer.needsUpdate = true;
-    this.geometry.setDrawRange(0, 6 * count);
+    this.geometry.instanceCount = count;
   }
 
   dispose(): void {
@@ -117,13 +117,14 @@ export class Strokes {
 
   private grow(numbers: number): void {
     this.geometry.dispose();
-    this.geometry = new BufferGeometry();
-    this.buffer = new InterleavedBuffer(new Float32Array(numbers), CORNER);
+    this.geometry = new InstancedBufferGeometry();
+    this.buffer = new InstancedInterleavedBuffer(new Float32Array(numbers), LINE);
     this.buffer.setUsage(DynamicDrawUsage);
-    this.geometry.setAttribute("position", new InterleavedBufferAttribute(this.buffer, 3, 0));
-    this.geometry.setAttribute("other", new InterleavedBufferAttribute(this.buffer, 3, 3));
-    this.geometry.setAttribute("side", new InterleavedBufferAttribute(this.buffer, 1, 6));
-    this.geometry.setIndex(new BufferAttribute(quads(numbers / CORNER / 4), 1));
+    this.geometry.setAttribute("start", new InterleavedBufferAttribute(this.buffer, 3, 0));
+    this.geometry.setAttribute("end", new InterleavedBufferAttribute(this.buffer, 3, 3));
+    // at which end a corner is, and on which side of the line
+    this.geometry.setAttribute("corner", new Float32BufferAttribute([-1, -1, -1, 1, 1, 1, 1, -1], 2));
+    this.geometry.setIndex([0, 1, 2, 0, 2, 3]);
     for (const mesh of this.object.children) (mesh as Mesh).geometry = this.geometry;
   }
 }
@@ -132,12 +133,6 @@ function materialsOf({ opacity = 1, behind = 0, over, cut = false }: StrokeStyle
   if (over) return [strokeMaterial(uniforms, opacity, "over", cut)];
   const before = strokeMaterial(uniforms, opacity, "before", cut);
   return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind", cut)] : [before];
-}
-
-function quads(count: number): Uint32Array {
-  const out = new Uint32Array(6 * count);
-  for (let k = 0; k < count; k++) out.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
-  return out;
 }
 
 /** Lines between points as outlines. */
@@ -167,8 +162,9 @@ const strokeUniforms = (color: Color): StrokeUniforms => ({
 });
 
 const VERTEX = /* glsl */ `
-  in vec3 other;
-  in float side;
+  in vec3 start;
+  in vec3 end;
+  in vec2 corner;
   uniform vec2 size;
   uniform float width;
   uniform float share;
@@ -181,16 +177,17 @@ const VERTEX = /* glsl */ `
     return projectionMatrix * at;
   }
   void main() {
-    clipAt(modelViewMatrix * vec4(position, 1.0));
-    vec4 here = nearer(position);
-    vec4 there = nearer(other);
+    vec3 at = corner.x < 0.0 ? start : end;
+    clipAt(modelViewMatrix * vec4(at, 1.0));
+    vec4 here = nearer(at);
+    vec4 there = nearer(corner.x < 0.0 ? end : start);
     gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
     upright = 0.0;
     if (here.w <= 0.0 || there.w <= 0.0) return;
     vec2 back = (here.xy / here.w - there.xy / there.w) * size;
     upright = abs(back.y) > abs(back.x) ? 1.0 : 0.0;
     back /= max(length(back), 1e-4);
-    vec2 shift = 0.5 * share * width * (back + side * vec2(-back.y, back.x));
+    vec2 shift = 0.5 * share * width * (back + corner.x * corner.y * vec2(-back.y, back.x));
     gl_Position = here + vec4(2.0 * shift / size * here.w, 0.0, 0.0);
   }
 `;

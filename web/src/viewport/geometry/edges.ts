@@ -89,25 +89,25 @@ export interface Eye {
   readonly parallel: boolean;
 }
 
-/** Numbers of one end of a stroke: the end, the other end, and on which side of the line this corner is. */
-export const CORNER = 7;
-const CORNERS = 4;
+/** Numbers of one line: its two ends. */
+export const LINE = 6;
 
-/** Writes four corners for each edge on the silhouettes; how many edges. */
+/** Writes the two ends of each edge on the silhouettes; how many edges. */
 export function writeSilhouettes(outlines: readonly Outline[], explode: number, eye: Eye, out: Float32Array): number {
   let count = 0;
   for (const { records, away } of outlines) {
     const off: Point = [explode * away[0], explode * away[1], explode * away[2]];
     for (let e = 0; e < records.length; e += EDGE) {
-      if (isSilhouette(records, e, off, eye)) writeStroke(records, e, off, out, CORNERS * CORNER * count++);
+      if (!isSilhouette(records, e, off, eye)) continue;
+      for (let k = 0; k < LINE; k++) out[LINE * count + k] = (records[e + k] ?? 0) + (off[k % 3] ?? 0);
+      count++;
     }
   }
   return count;
 }
 
-/** How many numbers the strokes of some outlines need at most. */
-export const roomFor = (outlines: readonly Outline[]): number =>
-  outlines.reduce((sum, { records }) => sum + (records.length / EDGE) * CORNERS * CORNER, 0);
+/** How many numbers the lines of some outlines need at most. */
+export const roomFor = (outlines: readonly Outline[]): number => outlines.reduce((sum, { records }) => sum + (LINE / EDGE) * records.length, 0);
 
 /** One face looks at the eye, the other does not. */
 function isSilhouette(r: Float32Array, e: number, off: Point, { at, parallel }: Eye): boolean {
@@ -117,16 +117,4 @@ function isSilhouette(r: Float32Array, e: number, off: Point, { at, parallel }: 
   const left = (r[e + 6] ?? 0) * x + (r[e + 7] ?? 0) * y + (r[e + 8] ?? 0) * z;
   const right = (r[e + 9] ?? 0) * x + (r[e + 10] ?? 0) * y + (r[e + 11] ?? 0) * z;
   return left * right <= 0;
-}
-
-function writeStroke(r: Float32Array, e: number, off: Point, out: Float32Array, at: number): void {
-  for (let corner = 0; corner < CORNERS; corner++) {
-    const [own, other] = corner < 2 ? [e, e + 3] : [e + 3, e];
-    const o = at + corner * CORNER;
-    for (let axis = 0; axis < 3; axis++) {
-      out[o + axis] = (r[own + axis] ?? 0) + (off[axis] ?? 0);
-      out[o + 3 + axis] = (r[other + axis] ?? 0) + (off[axis] ?? 0);
-    }
-    out[o + 6] = corner === 0 || corner === 2 ? -1 : 1;
-  }
 }

@@ -29,6 +29,20 @@ describe("frames while the camera moves", () => {
     expect(shares.at(-1)).toBeLessThan(1);
   });
 
+  it("become coarse on a processor however slow drawing is, and not as the person pauses", () => {
+    expect(turn(new FrameRate(() => undefined, true), 0.6, 3).at(-1)).toBeLessThan(1);
+    const rate = new FrameRate(() => undefined, true);
+    const shares = [100, 101, 102].flatMap((now) => [...turn(rate, 0.016, 3, now), rate.begin(now + 0.3)]);
+    expect(new Set(shares)).toEqual(new Set([1]));
+  });
+
+  it("are of the move, coarse and without shadows, however long after it they are drawn", () => {
+    const rate = new FrameRate(() => undefined, true);
+    const late = (now: number) => (rate.move(now), [rate.begin(now + 0.5), rate.hasTime(now + 0.5)]);
+    expect([late(100), late(100.6), late(101.2)]).toEqual([[1, false], [0.5, false], [0.5, false]]);
+    expect([rate.begin(101.9), rate.hasTime(101.9)]).toEqual([1, true]);
+  });
+
   it("stay fine after a single slow one", () => {
     const rate = new FrameRate(() => undefined);
     turn(rate, 0.016, 20);

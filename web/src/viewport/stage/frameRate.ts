@@ -13,6 +13,8 @@ export class FrameRate {
   private last = -Infinity;
   private moved = -Infinity;
   private heavy = false;
+  /** Whether the last frame was one of a move. */
+  private moving = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   private settles = -Infinity;
@@ -58,17 +60,20 @@ export class FrameRate {
   /** The share of the pixels in each direction that a frame that begins now is to have; below 1 it is coarse, as also
    * the first of another asset where drawing is slow. */
   begin(now: number): number {
-    const moves = now - this.moved < REST;
+    const isOfMove = this.moved > this.last;
+    const moves = isOfMove || now - this.moved < REST;
     const apart = now - this.last;
     this.last = now;
     const isFirst = this.waits;
     this.waits = false;
-    if (isFirst) this.rest(now); // however late it comes
-    if (moves && apart < PAUSE && !this.heavy) {
+    if (isFirst || isOfMove) this.rest(now); // however late it comes
+    // on a processor the picture is also drawn as the hand pauses: without such a frame it did not, however late this one comes
+    if (moves && (apart < PAUSE || (this.slow && this.moving)) && !this.heavy) {
       this.taken = 0.6 * this.taken + 0.4 * apart;
       this.heavy = this.taken > SLOW;
-      if (this.heavy) this.move(this.moved);
+      if (this.heavy) this.rest(now);
     }
+    this.moving = moves;
     return (moves && this.heavy) || isFirst ? SHARE : 1;
   }
 

@@ -1,4 +1,5 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
+import { sheetOf } from "../../store/sheetScene";
 import { initialWorkspace } from "../../store/workspace";
 import { box, boxScene, renderer, stageOf, stubBrowser } from "./boxes.test-help";
 import { settingsOf } from "./panes";
@@ -39,6 +40,16 @@ describe("showing a scene", () => {
     stage.draw(renderer(), 1);
     expect(stage.view.pose).toEqual(pose);
     expect(stage.shown?.hulls.names).toEqual(["left"]);
+  });
+
+  it("is in parallel projection where several assets are side by side, so that sizes compare", () => {
+    const stage = stageOf(boxScene([left]));
+    const sheet = sheetOf([boxScene([left], { asset: "a" }), boxScene([right], { asset: "b" })], "a");
+    const seen = [sheet, boxScene([left])].map((scene) => {
+      stage.show(scene);
+      return stage.view.projection;
+    });
+    expect(seen).toEqual(["orthographic", "perspective"]);
   });
 
   it("draws nothing anew where only labels changed", () => {
