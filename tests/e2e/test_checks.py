@@ -45,7 +45,7 @@ def test_a_filled_cup_is_found_shown_and_sorted_first(tmp_path: Path, browser: B
         assert "findings of the checks" in (cards.first.text_content() or "")
         person.page.reload()
         person.drawn()
-        cards.first.get_by_title(re.compile("findings of the checks, by the edit")).wait_for()
+        cards.and_(person.page.get_by_title(re.compile("findings? of the checks, by the edit"))).first.wait_for()
 
 
 def test_a_check_that_cannot_be_made_says_why(tmp_path: Path) -> None:

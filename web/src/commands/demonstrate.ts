@@ -4,7 +4,6 @@ import { acceptGuess, guessFor } from "../store/guesses";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { openRules, removeStep } from "../store/steps";
-import { reportError } from "../store/toasts";
 import { setTool, show, useWorkspace } from "../store/workspace";
 import { type Command, commandsOf, inStage, needs } from "./command";
 
@@ -41,7 +40,7 @@ function offeredRule(): number | null {
 async function acceptStep(): Promise<void> {
   const rule = offeredRule();
   if (useWorkspace.getState().draft) await acceptDraft();
-  else if (rule !== null) await acceptGuess(rule).catch(reportError);
+  else if (rule !== null) await acceptGuess(rule);
 }
 
 /** The place (from 0) of the step that is shown last. */
@@ -55,7 +54,7 @@ function shownStep(): number | null {
 async function removeShownStep(): Promise<void> {
   const { asset } = useWorkspace.getState();
   const place = shownStep();
-  if (asset !== null && place !== null) await removeStep(asset, place).catch(reportError);
+  if (asset !== null && place !== null) await removeStep(asset, place);
 }
 
 export const demonstrateCommands = commandsOf("Demonstrate", [
@@ -78,7 +77,7 @@ export const demonstrateCommands = commandsOf("Demonstrate", [
     title: "Cancel the action",
     keys: ["Escape"],
     enabled: hasDraft,
-    run: () => dropDraft().catch(reportError),
+    run: () => dropDraft(),
   },
   {
     id: "step-delete",

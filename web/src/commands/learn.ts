@@ -3,27 +3,22 @@ import { api } from "../server/api";
 import { perform, sendAfterEdits } from "../store/edits";
 import { useProject } from "../store/project";
 import { findSeparatingAssets } from "../store/readings";
-import { reportError } from "../store/toasts";
 import { openAsset, openStage, setHighlight, visit } from "../store/workspace";
 import type { NearestView, CandidateView } from "../wire";
 import { commandsOf, needs } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
 export const learnNow = (): Promise<unknown> => sendAfterEdits(api.learn);
-export const stopLearning = (): Promise<unknown> => api.stopLearning().catch(reportError);
+export const stopLearning = (): Promise<unknown> => api.stopLearning();
 
 /** Answers that a rule means another reading: what it selects where that distinguishes it from the others of the rule. */
 export async function chooseReading(reading: CandidateView): Promise<void> {
   setHighlight(null);
   const { rule, extractor } = reading;
-  try {
-    const assets = await findSeparatingAssets(reading);
-    const says = await Promise.all(assets.map((asset) => api.select({ asset, rule, extractor })));
-    for (const [k, asset] of assets.entries()) {
-      await perform({ kind: "answer", rule, asset, select: says[k]?.select ?? [] });
-    }
-  } catch (error) {
-    reportError(error);
+  const assets = await findSeparatingAssets(reading);
+  const says = await Promise.all(assets.map((asset) => api.select({ asset, rule, extractor })));
+  for (const [k, asset] of assets.entries()) {
+    await perform({ kind: "answer", rule, asset, select: says[k]?.select ?? [] });
   }
 }
 

@@ -38,11 +38,7 @@ export function commandFor(key: string, commands: readonly Command[] = listComma
   return commands.find((command) => command.keys.includes(key) && (command.enabled?.() ?? true));
 }
 
-interface HelpLine {
-  id: string;
-  title: string;
-  keys: readonly string[];
-}
+type HelpLine = Pick<Command, "id" | "title" | "keys">;
 
 /** Folds neighbours such as `Label 1: …`, `Label 2: …` into `Label 1 to 2: …`. */
 export function foldCommands(commands: readonly HelpLine[]): readonly HelpLine[] {

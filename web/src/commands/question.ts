@@ -1,6 +1,6 @@
 // Replies to the question of the family's assessment, each one edit that undo takes back, and the way to its card.
 import { callFor } from "../store/calls";
-import { exceptionOf, type Exceptions, isAsked } from "../store/assessment";
+import { exceptionOf, type Exceptions, openQuestion } from "../store/assessment";
 import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
@@ -74,7 +74,7 @@ export const questionCommands = commandsOf("Learn", [
     id: "question",
     title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
     keys: ["U"],
-    enabled: needs("Nothing is asked now.", () => isAsked(useProject.getState())),
+    enabled: needs("Nothing is asked now.", () => openQuestion(useProject.getState()) !== null),
     run: goToCard,
     movesFocus: true,
   },

@@ -5,7 +5,7 @@ import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
 import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
-import { notify, reportError } from "../store/toasts";
+import { notify } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card, GoalResultView } from "../wire";
 import { commandsOf, inStage, needs, unless } from "./command";
@@ -56,14 +56,10 @@ export async function acceptLegal(progress: (done: number, total: number) => voi
     progress(++done, open.length);
     return found === "illegal" ? [] : [card.asset];
   });
-  try {
-    const ids = (await Promise.all(verdicts)).flat();
-    const left = open.length - ids.length;
-    if (ids.length) await perform({ kind: "review", ids, verdict: "accepted" });
-    if (left) notify(`${left} not accepted: ${left === 1 ? "it is" : "they are"} not legal`);
-  } catch (error) {
-    reportError(error);
-  }
+  const ids = (await Promise.all(verdicts)).flat();
+  const left = open.length - ids.length;
+  if (ids.length) await perform({ kind: "review", ids, verdict: "accepted" });
+  if (left) notify(`${left} not accepted: ${left === 1 ? "it is" : "they are"} not legal`);
 }
 
 /** Shows what the program and the edits by hand make of an asset now, which is what a next edit by hand is about. */

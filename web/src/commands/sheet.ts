@@ -30,8 +30,6 @@ function hasNothingElse(): boolean {
 
 const isAble = unless(() => whyNotLeave(assetsInView(useWorkspace.getState())));
 
-const withChosen = (does: (assets: readonly string[]) => Promise<void>) => () => does(assetsInView(useWorkspace.getState()));
-
 export const memberCommands = commandsOf("Edit", [
-  { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", words: "remove exclude", enabled: isAble, run: withChosen(leaveOut) },
+  { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", words: "remove exclude", enabled: isAble, run: () => leaveOut(assetsInView(useWorkspace.getState())) },
 ]);

@@ -1,7 +1,6 @@
 // Adding assets from files or folders: picked in a menu, or dropped anywhere on the window.
 import { CloudUpload, Plus } from "lucide-react";
 import { type RefObject, useEffect, useRef, useState } from "react";
-import { reportError } from "../store/toasts";
 import { addAssets, type PlacedFile, stopUpload, useUpload } from "../store/upload";
 import { Button } from "../ui/Button";
 import { Menu } from "../ui/Menu";
@@ -108,16 +107,14 @@ function useDrop(take: (files: readonly PlacedFile[]) => Promise<void>): boolean
       setOver(false);
       if (!hasFiles(event) || event.defaultPrevented || !event.dataTransfer) return;
       event.preventDefault();
-      droppedFiles(event.dataTransfer).then(take).catch(reportError);
+      void droppedFiles(event.dataTransfer).then(take);
     };
-    window.addEventListener("dragover", drag);
-    window.addEventListener("dragleave", leave);
-    window.addEventListener("drop", drop);
-    return () => {
-      window.removeEventListener("dragover", drag);
-      window.removeEventListener("dragleave", leave);
-      window.removeEventListener("drop", drop);
-    };
+    const stop = new AbortController();
+    const { signal } = stop;
+    window.addEventListener("dragover", drag, { signal });
+    window.addEventListener("dragleave", leave, { signal });
+    window.addEventListener("drop", drop, { signal });
+    return () => stop.abort();
   }, [take]);
   return over;
 }

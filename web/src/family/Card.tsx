@@ -45,6 +45,12 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
   const badges = badgesOf(card, engine, bare);
   const title = [doubts, ...badges.map(({ text }) => text)].join("\n");
   const description = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
+  // the folder, which all assets share, is in the tooltip only
+  const broken = (
+    <p className={css.error} title={card.error ?? undefined} aria-hidden>
+      {card.error?.replace(/^\S*[/\\](?=\S+:)/, "")}
+    </p>
+  );
   return (
     <div
       id={cardId(asset)}
@@ -62,7 +68,7 @@ export const Card = memo(function Card({ asset, name, words, width, place, of, l
       onDoubleClick={() => setLayout({ gallery: false })}
     >
       <span className="visually-hidden">{description}</span>
-      {card.error === null ? <Face card={card} large={large} selected={selected} /> : <Broken error={card.error} />}
+      {card.error === null ? <Face card={card} large={large} selected={selected} /> : broken}
       <div className={css.foot} style={{ height: words }} aria-hidden>
         <span className={css.name}>{name}</span>
         <span className={css.line}>
@@ -83,15 +89,6 @@ function clickCard({ shiftKey, ctrlKey, metaKey }: MouseEvent, asset: string): v
   else openAsset(asset);
 }
 
-/** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
-function Broken({ error }: { error: string }) {
-  return (
-    <p className={css.error} title={error} aria-hidden>
-      {error.replace(/^\S*[/\\](?=\S+:)/, "")}
-    </p>
-  );
-}
-
 interface FaceProps {
   card: CardData;
   large: boolean;
@@ -109,22 +106,13 @@ function Face({ card, large, selected }: FaceProps) {
   const edited = results && card.edited_picture !== null && card.output !== "failed";
   const showing = edited && !(large && over) ? "output" : "source";
   if (card.hulls === null) return <div className={css.skeleton} aria-hidden />;
-  if (card.hulls === 0 && card.sources > 0 && card.picture === null) {
-    return (
-      <div className={css.bare}>
-        <MakeHulls asset={card.asset} />
-      </div>
-    );
-  }
+  const makes = card.hulls === 0 && card.sources > 0 && <MakeHulls asset={card.asset} />;
+  if (makes && card.picture === null) return <div className={css.bare}>{makes}</div>;
   return (
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
       {marked && isKnown && card.hulls > 0 && <span className={css.marked} aria-hidden>{marked.length}</span>}
-      {card.hulls === 0 && card.sources > 0 && (
-        <span className={css.over}>
-          <MakeHulls asset={card.asset} />
-        </span>
-      )}
+      {makes && <span className={css.over}>{makes}</span>}
       {large && edited && <span className={css.which} aria-hidden>{showing === "output" ? "after" : "before"}</span>}
     </div>
   );

@@ -1,6 +1,6 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
+import { type KeyboardEvent, type RefObject, useEffect, useEffectEvent, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { wrapName } from "../store/commonParts";
 import { useShown } from "../store/family";
 import { useOwnNames } from "../store/project";
@@ -22,7 +22,7 @@ const WIDTHS = {
 } as const;
 
 /** large: in place of the view, where the picture tells whether it is of before or after. */
-export function Cards({ large = false }: { large?: boolean }) {
+export function Cards({ large }: { large: boolean }) {
   const size = useLayout((layout) => layout.thumbnails);
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
@@ -51,7 +51,10 @@ export function Cards({ large = false }: { large?: boolean }) {
   if (shown.length === 0) {
     return (
       <div ref={box} className={css.cards}>
-        <NoMatch />
+        <div className={css.noMatch}>
+          <p>No asset matches.</p>
+          <Button onClick={() => setFilters({ search: "", only: [] })}>Clear filters</Button>
+        </div>
       </div>
     );
   }
@@ -116,15 +119,6 @@ function extendByKey(shown: readonly string[], by: number): void {
   if (to !== undefined) extendSheet(to);
 }
 
-function NoMatch() {
-  return (
-    <div className={css.noMatch}>
-      <p>No asset matches.</p>
-      <Button onClick={() => setFilters({ search: "", only: [] })}>Clear filters</Button>
-    </div>
-  );
-}
-
 /** The width inside an element, as it changes. */
 function useWidth(box: RefObject<HTMLElement | null>): number {
   const [width, setWidth] = useState(264);
@@ -148,13 +142,9 @@ function useScrollToOpen(
   columns: number,
   scrollTo: (row: number) => void,
 ): void {
-  const latest = useRef({ shown, columns, scrollTo });
-  useLayoutEffect(() => {
-    latest.current = { shown, columns, scrollTo };
+  const go = useEffectEvent(() => {
+    const at = asset === null ? -1 : shown.indexOf(asset);
+    if (at >= 0) scrollTo(Math.floor(at / columns));
   });
-  useEffect(() => {
-    const { shown: all, columns: across, scrollTo: go } = latest.current;
-    const at = asset === null ? -1 : all.indexOf(asset);
-    if (at >= 0) go(Math.floor(at / across));
-  }, [asset, size]);
+  useEffect(() => go(), [asset, size]);
 }

@@ -14,10 +14,11 @@ import { Filters } from "./Filters";
 import { AssetMenu, LeftOut } from "./Members";
 import { SignOff } from "./Sureness";
 
-export function Family() {
+/** large: in place of the view, with larger pictures. */
+export function Family({ large = false }: { large?: boolean }) {
   const any = useProject((state) => state.order.length > 0);
   return (
-    <div className={css.family}>
+    <div className={[css.family, large && css.gallery].filter(Boolean).join(" ")} data-tour={large ? "family" : undefined}>
       <FamilyHead />
       <ReadProgress />
       {any && (
@@ -25,25 +26,10 @@ export function Family() {
           <MissingHulls />
           <SignOff />
           <Filters />
-          <Cards />
+          <Cards large={large} />
           <LeftOut />
         </>
       )}
-    </div>
-  );
-}
-
-/** The family in place of the view, with larger pictures. */
-export function Gallery() {
-  return (
-    <div className={[css.family, css.gallery].join(" ")} data-tour="family">
-      <FamilyHead />
-      <ReadProgress />
-      <MissingHulls />
-      <SignOff />
-      <Filters />
-      <Cards large />
-      <LeftOut />
     </div>
   );
 }

@@ -45,19 +45,13 @@ export function badgesOf(card: Card, engine = "", isBare = false): readonly Badg
     matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
-    corrections > 0 && countBadge("corrected", corrections, "edit by hand", "edits by hand"),
+    corrections > 0 && { name: "corrected", count: corrections, text: countText(corrections, "edit by hand", "edits by hand") },
     output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
-    unsure > 0 && countBadge("unsure", unsure, "label is not sure", "labels are not sure"),
-    bare > 0 && countBadge("unlabelled", bare, "hull has no label", "hulls have no label"),
+    unsure > 0 && { name: "unsure", count: unsure, text: countText(unsure, "label is not sure", "labels are not sure") },
+    bare > 0 && { name: "unlabelled", count: bare, text: countText(bare, "hull has no label", "hulls have no label") },
   ];
   return out.filter((badge) => badge !== false);
 }
-
-const countBadge = (name: Badge["name"], count: number, one: string, several: string): Badge => ({
-  name,
-  count,
-  text: count === 1 ? `1 ${one}` : `${count} ${several}`,
-});
 
 const WIDE = 16; // pixels that a sign takes
 const DIGIT = 7;

@@ -1,13 +1,13 @@
 // The list of hulls, in step with the view; pieces that are no hulls stand at its end with the reason.
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { ArrowDown, ArrowUp, Search } from "lucide-react";
-import { type KeyboardEvent, type MouseEvent, useEffect, useMemo, useRef, useState } from "react";
+import { type KeyboardEvent, type MouseEvent, useEffect, useEffectEvent, useMemo, useRef, useState } from "react";
 import { tonesOf } from "../pictures/hullColors";
 import { hullNamesOf } from "../store/commonParts";
 import { useProject } from "../store/project";
 import { type Scene, useScenes } from "../store/scenes";
 import { countText } from "../store/words";
-import { hover, lookFrom, select, selectMore, useWorkspace } from "../store/workspace";
+import { hover, lookFrom, select, selectMore, useWorkspace, type WorkspaceState } from "../store/workspace";
 import { HullRow, OpaqueRow } from "./HullRow";
 import css from "./hulls.module.css";
 import { COLUMNS, matchesSearch, namesBetween, nextOrder, type Order, rowsOf } from "./rows";
@@ -108,20 +108,13 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
 
 /** Calls back with the place of a hull that was newly selected elsewhere. */
 function useFollowSelection(names: readonly string[], follow: (index: number, name: string) => void): void {
-  const latest = useRef({ names, follow });
-  useEffect(() => {
-    latest.current = { names, follow };
+  const look = useEffectEvent((now: WorkspaceState, before: WorkspaceState) => {
+    if (now.selection === before.selection) return;
+    const fresh = [...now.selection].find((name) => !before.selection.has(name));
+    const index = fresh === undefined ? -1 : names.indexOf(fresh);
+    if (fresh !== undefined && index >= 0) follow(index, fresh);
   });
-  useEffect(
-    () =>
-      useWorkspace.subscribe((now, before) => {
-        if (now.selection === before.selection) return;
-        const fresh = [...now.selection].find((name) => !before.selection.has(name));
-        const index = fresh === undefined ? -1 : latest.current.names.indexOf(fresh);
-        if (fresh !== undefined && index >= 0) latest.current.follow(index, fresh);
-      }),
-    [],
-  );
+  useEffect(() => useWorkspace.subscribe((now, before) => look(now, before)), []);
 }
 
 /** The heads of the list's columns; a click sorts. */
@@ -143,19 +136,10 @@ function ListHead({ order, onOrder }: { order: Order; onOrder: (order: Order) =>
   );
 }
 
-interface ListKeys {
-  /** The row that the keys are at. */
-  readonly active: string | null;
-  readonly setActive: (name: string) => void;
-  readonly onKeyDown: (event: KeyboardEvent) => void;
-  readonly onClick: (event: MouseEvent) => void;
-  readonly onDoubleClick: () => void;
-}
-
 const PAGE = 10;
 
-/** reveal: brings a row into sight. */
-function useListKeys(names: readonly string[], reveal: (index: number) => void): ListKeys {
+/** The row that the keys are at, and what keys and clicks do. reveal: brings a row into sight. */
+function useListKeys(names: readonly string[], reveal: (index: number) => void) {
   const [active, setActive] = useState<string | null>(null);
   const [anchor, setAnchor] = useState<string | null>(null);
   const take = (name: string, event: { shiftKey: boolean; ctrlKey: boolean; metaKey: boolean }) => {

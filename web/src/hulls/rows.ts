@@ -41,7 +41,7 @@ export function rowsOf(
   const { column } = order;
   if (column === null) return rows;
   const sign = order.down ? -1 : 1;
-  return rows.sort((a, b) => sign * compareRows(a, b, column));
+  return rows.sort((a, b) => sign * COMPARE[column](a, b));
 }
 
 /** Whether each word of a search is in one of some texts. */
@@ -52,21 +52,14 @@ export function matchesSearch(search: string, ...texts: string[]): boolean {
 
 const names = new Intl.Collator("en", { numeric: true });
 
-function compareRows(a: Row, b: Row, column: Column): number {
-  switch (column) {
-    case "name":
-      return names.compare(a.hull.name, b.hull.name);
-    case "label":
-      // those without a label come last
-      return names.compare(a.hull.label ?? "\uffff", b.hull.label ?? "\uffff");
-    case "volume":
-      return a.hull.volume - b.hull.volume;
-    case "shape":
-      return names.compare(a.hull.primitive ?? "", b.hull.primitive ?? "") || a.hull.vertices - b.hull.vertices;
-    case "neighbours":
-      return a.neighbours - b.neighbours;
-  }
-}
+const COMPARE: Readonly<Record<Column, (a: Row, b: Row) => number>> = {
+  name: ({ hull: a }, { hull: b }) => names.compare(a.name, b.name),
+  // those without a label come last
+  label: ({ hull: a }, { hull: b }) => names.compare(a.label ?? "\uffff", b.label ?? "\uffff"),
+  volume: ({ hull: a }, { hull: b }) => a.volume - b.volume,
+  shape: ({ hull: a }, { hull: b }) => names.compare(a.primitive ?? "", b.primitive ?? "") || a.vertices - b.vertices,
+  neighbours: (a, b) => a.neighbours - b.neighbours,
+};
 
 /** The names between two of a list, both included; only the second where the first is not in it. */
 export function namesBetween(listed: readonly string[], from: string | null, to: string): string[] {

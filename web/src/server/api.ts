@@ -31,17 +31,15 @@ import type {
 import { getBytes, getJson, postForBytes, postJson, putBytes, withQuery } from "./http";
 import { readPacket, readPicture, type EditedPacket, type ShapesPacket } from "./packet";
 
+const getPacket = async <Header extends ShapesHeader | EditHeader>(path: string, query: Record<string, string | number>) => readPacket<Header>(await getBytes(path, query));
+
 export const api = {
   asset: (asset: string) => getJson<AssetView>("api/asset", { asset }),
-  shapes: async (asset: string): Promise<ShapesPacket> =>
-    readPacket<ShapesHeader>(await getBytes("api/shapes", { asset })),
-  visual: async (asset: string): Promise<ShapesPacket> =>
-    readPacket<ShapesHeader>(await getBytes("api/visual", { asset })),
-  stage: async (asset: string, steps: number): Promise<EditedPacket> =>
-    readPacket<EditHeader>(await getBytes("api/stage", { asset, steps })),
-  result: async (asset: string, of: "program" | "output"): Promise<EditedPacket> =>
-    readPacket<EditHeader>(await getBytes("api/result", { asset, of })),
-  triedHulls: async (asset: string): Promise<EditedPacket> => readPacket<EditHeader>(await getBytes("api/hulls", { asset })),
+  shapes: (asset: string): Promise<ShapesPacket> => getPacket<ShapesHeader>("api/shapes", { asset }),
+  visual: (asset: string): Promise<ShapesPacket> => getPacket<ShapesHeader>("api/visual", { asset }),
+  stage: (asset: string, steps: number): Promise<EditedPacket> => getPacket<EditHeader>("api/stage", { asset, steps }),
+  result: (asset: string, of: "program" | "output"): Promise<EditedPacket> => getPacket<EditHeader>("api/result", { asset, of }),
+  triedHulls: (asset: string): Promise<EditedPacket> => getPacket<EditHeader>("api/hulls", { asset }),
   preview: async (request: PreviewRequest, stop?: AbortSignal): Promise<EditedPacket> =>
     readPacket<EditHeader>(await postForBytes("api/preview", request, stop)),
   select: (request: SelectRequest, stop?: AbortSignal) => postJson<SelectionView>("api/select", request, stop),

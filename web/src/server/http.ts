@@ -12,6 +12,12 @@ export class ServerProblem extends Error {
   }
 }
 
+/** An error as a value, if the server has answered so. */
+export function problemOf(error: unknown): ServerProblem {
+  if (error instanceof ServerProblem) return error;
+  throw error;
+}
+
 /** Who is called with each act that succeeds: an address, and of what is sent its kind and asset. */
 export const answers = new Set<(act: string) => void>();
 
@@ -76,7 +82,7 @@ async function request(path: string, init: RequestInit): Promise<Response> {
     throw new ServerProblem(unreachable, 0);
   }
   const act = actOf(path, init);
-  if (!answer.ok) throw new ServerProblem(await problemOf(answer), answer.status, act);
+  if (!answer.ok) throw new ServerProblem(await readProblem(answer), answer.status, act);
   for (const hear of answers) hear(act);
   return answer;
 }
@@ -94,7 +100,7 @@ const unreachable: Problem = {
   conflict: false,
 };
 
-async function problemOf(answer: Response): Promise<Problem> {
+async function readProblem(answer: Response): Promise<Problem> {
   try {
     return (await answer.json()) as Problem;
   } catch {

@@ -2,7 +2,7 @@
 import { FolderPlus } from "lucide-react";
 import { Tooltip } from "radix-ui";
 import { AddMenu, DropZone } from "../family/AddAssets";
-import { Family, Gallery } from "../family/Family";
+import { Family } from "../family/Family";
 import { StepStrip } from "../steps/StepStrip";
 import { StartPage } from "../start/StartPage";
 import { useProject } from "../store/project";
@@ -10,7 +10,7 @@ import { useStart } from "../store/start";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Viewport } from "../viewport/Viewport";
 import css from "./App.module.css";
-import { Divider } from "./Divider";
+import { Divider } from "../ui/Divider";
 import { Help } from "./Help";
 import empty from "./nothing.module.css";
 import { Palette } from "./Palette";
@@ -105,7 +105,7 @@ function Centre() {
   return (
     <main className={css.centre}>
       <div className={css.view} data-part data-tour="view">
-        {gallery ? <Gallery /> : <Viewport />}
+        {gallery ? <Family large /> : <Viewport />}
       </div>
       {!gallery && (
         <div className={css.steps} data-part data-tour="steps">

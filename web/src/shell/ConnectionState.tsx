@@ -2,7 +2,6 @@
 import { Copy, Unplug } from "lucide-react";
 import { useEffect } from "react";
 import { useUnsaved } from "../store/edits";
-import { reportError } from "../store/toasts";
 import { countText } from "../store/words";
 import { Button } from "../ui/Button";
 import { Wordmark } from "../ui/Wordmark";
@@ -40,7 +39,7 @@ function Reason({ state }: { state: "lost" | "stopped" | "refused" }) {
       <span>
         The studio was stopped. Start it again by <code>{command}</code>: this page goes on by itself.
       </span>
-      <Button icon={Copy} onClick={() => void navigator.clipboard.writeText(command).catch(reportError)}>
+      <Button icon={Copy} onClick={() => void navigator.clipboard.writeText(command)}>
         Copy
       </Button>
     </>

@@ -1,14 +1,14 @@
 // Undo, redo, and the list of all that was done and undone: where one is in it, and the way to any other state.
 import { ChevronDown, Redo2, Undo2 } from "lucide-react";
 import { Popover } from "radix-ui";
-import { type KeyboardEvent, useEffect, useId, useState } from "react";
+import { type KeyboardEvent, useId, useState } from "react";
 import { api } from "../server/api";
 import { capitalize, jumpTo, redo, undo } from "../store/edits";
 import { useProject } from "../store/project";
-import { reportError } from "../store/toasts";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { IconButton } from "../ui/Button";
+import { useAnswer } from "../ui/useAnswer";
 import type { HistoryAct } from "../wire";
 import css from "./TopBar.module.css";
 
@@ -57,16 +57,9 @@ interface State {
 function Acts({ here }: { here: number }) {
   const id = useId();
   const history = useProject((state) => state.history);
-  const [acts, setActs] = useState<readonly HistoryAct[]>([]);
+  const found = useAnswer(history, () => api.history());
   const [chosen, setChosen] = useState(here);
-  useEffect(() => {
-    let wanted = true;
-    api.history().then((found) => wanted && setActs(found.acts), reportError);
-    return () => {
-      wanted = false;
-    };
-  }, [history]);
-  const states = statesOf(acts);
+  const states = statesOf(found?.acts ?? []);
   const placeOf = (done: number) => states.findIndex((state) => state.done === done);
   const [at, now] = [Math.max(0, placeOf(chosen)), placeOf(here)];
   const sayOf = (place: number) => `${place > now ? "Undo" : "Redo"} ${countText(Math.abs(place - now), "act")}`;

@@ -12,7 +12,7 @@ import { useProject } from "../store/project";
 import { goToNext } from "../commands/navigate";
 import { openStage, setLayout, STAGE_OF, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
 import { HullList } from "../hulls/HullList";
-import { Divider } from "./Divider";
+import { Divider } from "../ui/Divider";
 import css from "./Side.module.css";
 
 const TABS: Readonly<Record<StageName, { title: string; Panel: ComponentType }>> = {

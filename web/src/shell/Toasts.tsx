@@ -3,7 +3,7 @@
 import { Check, CircleX, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { undo } from "../store/edits";
-import { dismissToast, type Toast, useToasts } from "../store/toasts";
+import { dismissToast, reportError, type Toast, useToasts } from "../store/toasts";
 import { Button, IconButton } from "../ui/Button";
 import { whilePointed } from "../ui/whilePointed";
 import css from "./toasts.module.css";
@@ -12,6 +12,12 @@ const FADES_AFTER = { done: 6000, problem: 60_000 }; // ms
 
 let lastAct = 0;
 for (const kind of ["pointermove", "keydown"]) addEventListener(kind, () => (lastAct = Date.now()), { passive: true, capture: true });
+
+// what went wrong where nobody waited for it
+addEventListener("unhandledrejection", (event) => {
+  event.preventDefault();
+  reportError(event.reason);
+});
 
 export function Toasts() {
   const toasts = useToasts((state) => state.toasts);

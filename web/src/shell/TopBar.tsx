@@ -1,13 +1,14 @@
 // The bar above: project, search, undo and redo, what works in the background, theme, help.
 import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Search } from "lucide-react";
 import { Popover } from "radix-ui";
-import { api } from "../server/api";
-import { progressText } from "../store/jobs";
+import type { ReactNode } from "react";
+import { cancelJob, progressText } from "../store/jobs";
 import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
-import { reportError, useToasts } from "../store/toasts";
+import { useToasts } from "../store/toasts";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
+import { JobLines } from "../ui/JobProgress";
 import { ThemeMenu } from "../ui/ThemeMenu";
 import { Wordmark } from "../ui/Wordmark";
 import type { Job } from "../wire";
@@ -29,7 +30,11 @@ export function TopBar() {
         {name}
       </h1>
       {leave && <IconButton icon={FolderOpen} name="Projects: leave this one for the start page" onClick={() => void leaveProject()} />}
-      <SearchButton />
+      <button type="button" className={css.search} onClick={() => useWorkspace.setState({ overlay: "palette" })}>
+        <Search size={14} aria-hidden />
+        <span>Find a command or an asset</span>
+        <kbd>Ctrl+K</kbd>
+      </button>
       <History />
       <span className={css.space} />
       <Learning />
@@ -43,16 +48,6 @@ export function TopBar() {
         onClick={() => useWorkspace.setState({ overlay: "help" })}
       />
     </header>
-  );
-}
-
-function SearchButton() {
-  return (
-    <button type="button" className={css.search} onClick={() => useWorkspace.setState({ overlay: "palette" })}>
-      <Search size={14} aria-hidden />
-      <span>Find a command or an asset</span>
-      <kbd>Ctrl+K</kbd>
-    </button>
   );
 }
 
@@ -74,23 +69,16 @@ function Problems() {
   const problems = useToasts((state) => state.problems);
   if (problems.length === 0) return null;
   return (
-    <Popover.Root>
-      <Popover.Trigger className={css.jobButton}>Problems {problems.length}</Popover.Trigger>
-      <Popover.Portal>
-        <Popover.Content className={css.jobs} align="end" sideOffset={5} aria-label="Problems">
-          <ul>
-            {problems.map(({ id, at, text, remedy }) => (
-              <li key={id} className={css.job}>
-                <p>
-                  <time dateTime={at.toISOString()}>{at.toLocaleTimeString("en-GB")}</time> {text}
-                </p>
-                {remedy && <p className={css.message}>{remedy}</p>}
-              </li>
-            ))}
-          </ul>
-        </Popover.Content>
-      </Popover.Portal>
-    </Popover.Root>
+    <Drop name="Problems" trigger={`Problems ${problems.length}`}>
+      {problems.map(({ id, at, text, remedy }) => (
+        <li key={id} className={css.job}>
+          <p>
+            <time dateTime={at.toISOString()}>{at.toLocaleTimeString("en-GB")}</time> {text}
+          </p>
+          {remedy && <p className={css.message}>{remedy}</p>}
+        </li>
+      ))}
+    </Drop>
   );
 }
 
@@ -101,29 +89,35 @@ function Jobs() {
   const running = jobs.filter((job) => job.state === "running");
   const [first] = running;
   const latest = jobs[jobs.length - 1];
+  const trigger = first ? (
+    <>
+      {first.title}
+      <progress value={first.total ? first.done : undefined} max={first.total || 1} aria-label={first.title} />
+      {first.total > 0 && progressText(first)}
+      {running.length > 1 && ` +${running.length - 1}`}
+    </>
+  ) : (
+    <>
+      <Sign state={latest?.state ?? "done"} /> Jobs
+    </>
+  );
+  return (
+    <Drop name="Jobs" trigger={trigger}>
+      {[...jobs].reverse().map((job) => (
+        <JobRow key={job.id} job={job} />
+      ))}
+    </Drop>
+  );
+}
+
+/** A list that opens below the bar. */
+function Drop({ name, trigger, children }: { name: string; trigger: ReactNode; children: ReactNode }) {
   return (
     <Popover.Root>
-      <Popover.Trigger className={css.jobButton}>
-        {first ? (
-          <>
-            {first.title}
-            <progress value={first.total ? first.done : undefined} max={first.total || 1} aria-label={first.title} />
-            {first.total > 0 && progressText(first)}
-            {running.length > 1 && ` +${running.length - 1}`}
-          </>
-        ) : (
-          <>
-            <Sign state={latest?.state ?? "done"} /> Jobs
-          </>
-        )}
-      </Popover.Trigger>
+      <Popover.Trigger className={css.jobButton}>{trigger}</Popover.Trigger>
       <Popover.Portal>
-        <Popover.Content className={css.jobs} align="end" sideOffset={5} aria-label="Jobs">
-          <ul>
-            {[...jobs].reverse().map((job) => (
-              <JobRow key={job.id} job={job} />
-            ))}
-          </ul>
+        <Popover.Content className={css.jobs} align="end" sideOffset={5} aria-label={name}>
+          <ul>{children}</ul>
         </Popover.Content>
       </Popover.Portal>
     </Popover.Root>
@@ -149,23 +143,14 @@ function JobRow({ job }: { job: Job }) {
         <span className={css.jobTitle}>{job.title}</span>
         {job.total > 0 && progressText(job)}
         {job.state === "running" && job.kind !== "read" && (
-          <Button onClick={() => void api.cancelJob(job.id).catch(reportError)}>Stop</Button>
+          <Button onClick={() => cancelJob(job.id)}>Stop</Button>
         )}
       </div>
       {job.state === "running" && (
         <progress value={job.total ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
       )}
       {job.message && <p className={css.message}>{job.message}</p>}
-      {job.lines.length > 0 && (
-        <ul className={css.lines} tabIndex={0} aria-label="Results by asset">
-          {job.lines.map((line) => (
-            <li key={line.asset} data-status={line.status}>
-              <b>{line.asset}</b> {line.status}
-              {[line.text, ...line.before].filter(Boolean).map((text, k) => `${k ? "; " : ": "}${text}`)}
-            </li>
-          ))}
-        </ul>
-      )}
+      <JobLines lines={job.lines} />
     </li>
   );
 }

@@ -1,7 +1,7 @@
 // The folders of this machine, as the server lists them: one is gone into, or chosen.
 import { CornerLeftUp, Folder, FolderCheck, House } from "lucide-react";
 import { Dialog } from "radix-ui";
-import { type KeyboardEvent, useEffect, useRef, useState } from "react";
+import { type ComponentProps, type KeyboardEvent, useEffect, useEffectEvent, useRef, useState } from "react";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import { useStart } from "../store/start";
@@ -11,24 +11,27 @@ import { Note } from "../ui/Section";
 import type { FolderView } from "../wire";
 import css from "./folders.module.css";
 
-interface FolderDialogProps {
+interface FolderButtonProps {
   title: string;
-  open: boolean;
   /** Where to begin; the first of the usual places where it is empty or cannot be listed. */
   from: string;
   wants: "assets" | "project" | "place";
-  onClose: () => void;
   onChoose: (folder: string) => void;
 }
 
-export function FolderDialog({ title, open, onClose, ...rest }: FolderDialogProps) {
+/** The button that opens the dialog. */
+export function FolderButton({ title, from, wants, onChoose, ...button }: FolderButtonProps & ComponentProps<typeof Button>) {
+  const [open, setOpen] = useState(false);
   return (
-    <Dialog.Root open={open} onOpenChange={(is) => !is && onClose()}>
+    <Dialog.Root open={open} onOpenChange={setOpen}>
+      <Dialog.Trigger asChild>
+        <Button {...button} />
+      </Dialog.Trigger>
       <Dialog.Portal>
         <Dialog.Overlay className={css.shade} />
         <Dialog.Content className={css.dialog} aria-describedby={undefined} onOpenAutoFocus={focusField}>
           <Dialog.Title className={css.title}>{title}</Dialog.Title>
-          <Folders {...rest} onClose={onClose} />
+          <Folders from={from} wants={wants} onChoose={onChoose} onClose={() => setOpen(false)} />
         </Dialog.Content>
       </Dialog.Portal>
     </Dialog.Root>
@@ -37,7 +40,7 @@ export function FolderDialog({ title, open, onClose, ...rest }: FolderDialogProp
 
 const BUTTONS = { assets: "Use this folder", project: "Open this project", place: "Put it in this folder" } as const;
 
-function Folders({ from, wants, onClose, onChoose }: Omit<FolderDialogProps, "title" | "open">) {
+function Folders({ from, wants, onClose, onChoose }: Omit<FolderButtonProps, "title"> & { onClose: () => void }) {
   const places = useStart((state) => state.view?.places ?? NONE);
   const { view, text, setText, problem, go } = useFolder(from, places);
   const list = useRef<HTMLUListElement>(null);
@@ -122,16 +125,12 @@ function useFolder(from: string, places: readonly string[]) {
       return false;
     }
   };
-  const first = useRef({ from, places, go });
-  useEffect(() => {
-    const { from: begin, places: usual, go: list } = first.current;
-    const [place] = usual;
-    const beginning = async () => {
-      if (begin && (await list(begin))) return;
-      if (place !== undefined) await list(place);
-    };
-    void beginning();
-  }, []);
+  const begin = useEffectEvent(async () => {
+    const [place] = places;
+    if (from && (await go(from))) return;
+    if (place !== undefined) await go(place);
+  });
+  useEffect(() => void begin(), []);
   return { view, text, setText, problem, go };
 }
 

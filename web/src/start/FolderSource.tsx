@@ -1,15 +1,13 @@
 // The folder of assets: typed, or picked in a list of the folders of this machine.
-import { useState } from "react";
 import { lookAtFolder, typeFolder, useStart } from "../store/start";
 import { Button } from "../ui/Button";
-import { FolderDialog } from "./FolderDialog";
+import { FolderButton } from "./FolderDialog";
 import css from "./start.module.css";
 
 export function FolderSource() {
   const folder = useStart((state) => state.folder);
   const busy = useStart((state) => state.busy);
   const found = useStart((state) => state.found !== null);
-  const [browsing, setBrowsing] = useState(false);
   return (
     <form
       className={css.form}
@@ -30,9 +28,9 @@ export function FolderSource() {
           aria-describedby="assets-folder-note"
           onChange={(event) => typeFolder(event.target.value)}
         />
-        <Button onClick={() => setBrowsing(true)} aria-label="Browse for the folder of assets">
+        <FolderButton title="Folder of assets" from={folder} wants="assets" onChoose={(chosen) => void lookAtFolder(chosen)} aria-label="Browse for the folder of assets">
           Browse…
-        </Button>
+        </FolderButton>
         <Button look={found ? "plain" : "primary"} type="submit" disabled={busy !== null || !folder.trim()}>
           {busy === "look" ? "Looking…" : "Look at it"}
         </Button>
@@ -40,14 +38,6 @@ export function FolderSource() {
       <p className={css.dim} id="assets-folder-note">
         The assets stay where they are and are never written to.
       </p>
-      <FolderDialog
-        title="Folder of assets"
-        open={browsing}
-        from={folder}
-        wants="assets"
-        onClose={() => setBrowsing(false)}
-        onChoose={(chosen) => void lookAtFolder(chosen)}
-      />
     </form>
   );
 }

@@ -1,10 +1,9 @@
 // A new project: of a folder of this machine, of files that are dropped or picked, or of a bundled family.
 import { FolderPlus } from "lucide-react";
-import { useState } from "react";
 import { chooseFamily, chooseSource, makeProject, type Source, typeProject, useStart } from "../store/start";
 import { Button } from "../ui/Button";
 import { Choice } from "../ui/fields";
-import { FolderDialog } from "./FolderDialog";
+import { FolderButton } from "./FolderDialog";
 import { FolderSource } from "./FolderSource";
 import { Found } from "./Found";
 import { ProblemNote } from "./ProblemNote";
@@ -64,7 +63,6 @@ function Destination() {
   const ready = useStart((state) => state.source === "family" || state.found !== null);
   const project = useStart((state) => state.project);
   const busy = useStart((state) => state.busy);
-  const [browsing, setBrowsing] = useState(false);
   if (!ready) return null;
   return (
     <form
@@ -85,9 +83,15 @@ function Destination() {
           aria-describedby="project-folder-note"
           onChange={(event) => typeProject(event.target.value)}
         />
-        <Button onClick={() => setBrowsing(true)} aria-label="Browse for the place of the project">
+        <FolderButton
+          title="Where the project goes"
+          from={parentOf(project)}
+          wants="place"
+          onChoose={(folder) => typeProject(moveInto(folder, project))}
+          aria-label="Browse for the place of the project"
+        >
           Browse…
-        </Button>
+        </FolderButton>
       </div>
       <p className={css.dim} id="project-folder-note">
         A new folder, made for labels, demonstrations, the program and results.
@@ -98,14 +102,6 @@ function Destination() {
           {busy === "make" ? "Making the project…" : "Make the project"}
         </Button>
       </div>
-      <FolderDialog
-        title="Where the project goes"
-        open={browsing}
-        from={parentOf(project)}
-        wants="place"
-        onClose={() => setBrowsing(false)}
-        onChoose={(folder) => typeProject(moveInto(folder, project))}
-      />
     </form>
   );
 }

@@ -6,9 +6,9 @@ import { IdPicture } from "../pictures/IdPicture";
 import { api } from "../server/api";
 import { forgetProject, openProject, useStart } from "../store/start";
 import { countText } from "../store/words";
-import { Button, IconButton } from "../ui/Button";
+import { IconButton } from "../ui/Button";
 import type { RecentProject } from "../wire";
-import { FolderDialog } from "./FolderDialog";
+import { FolderButton } from "./FolderDialog";
 import { ProblemNote } from "./ProblemNote";
 import css from "./start.module.css";
 import { openedText } from "./words";
@@ -16,14 +16,13 @@ import { openedText } from "./words";
 export function RecentProjects() {
   const recent = useStart((state) => state.view?.recent ?? NONE);
   const busy = useStart((state) => state.busy !== null);
-  const [browsing, setBrowsing] = useState(false);
   return (
     <section className={css.recent} aria-labelledby="recent-projects">
       <header className={css.head}>
         <h2 id="recent-projects">Recent projects</h2>
-        <Button icon={FolderOpen} disabled={busy} onClick={() => setBrowsing(true)}>
+        <FolderButton icon={FolderOpen} disabled={busy} title="Open a project" from="" wants="project" onChoose={(folder) => void openProject(folder)}>
           Open…
-        </Button>
+        </FolderButton>
       </header>
       <ProblemNote place="open" />
       {recent.length === 0 && <p className={css.dim}>None yet. Make one here, or open one that is on this machine.</p>}
@@ -32,14 +31,6 @@ export function RecentProjects() {
           <Row key={project.folder} project={project} busy={busy} />
         ))}
       </ul>
-      <FolderDialog
-        title="Open a project"
-        open={browsing}
-        from=""
-        wants="project"
-        onClose={() => setBrowsing(false)}
-        onChoose={(folder) => void openProject(folder)}
-      />
     </section>
   );
 }

@@ -3,7 +3,6 @@ import { runInTurn } from "../commands/queue";
 import { draftStep, dropDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { removeStep, setStep } from "../store/steps";
-import { reportError } from "../store/toasts";
 import { useWorkspace } from "../store/workspace";
 import type { MenuLine } from "../ui/Menu";
 import type { AssetView } from "../wire";
@@ -40,12 +39,8 @@ export function stepMenu(view: AssetView, place: number, rules: number): (MenuLi
 
 /** Sets what a rule selects here, in place of the action in hand for it. */
 export async function setStepHere(asset: string, place: number, hulls: string[] | null): Promise<void> {
-  try {
-    const done = await setStep(asset, place, hulls);
-    if (done && useWorkspace.getState().draft?.editing === place) await dropDraft();
-  } catch (error) {
-    reportError(error);
-  }
+  const done = await setStep(asset, place, hulls);
+  if (done && useWorkspace.getState().draft?.editing === place) await dropDraft();
 }
 
 /** Rules have one order, in all demonstrations. */
@@ -54,5 +49,5 @@ export function moveRule(from: number, to: number): void {
 }
 
 export function removeStepHere(asset: string, place: number): void {
-  removeStep(asset, place).catch(reportError);
+  void removeStep(asset, place);
 }

@@ -1,5 +1,6 @@
 // How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
 import type { AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
+import { groupBy } from "./once";
 import type { ProjectState } from "./project";
 import { countText } from "./words";
 
@@ -18,24 +19,12 @@ export const sureText = (confidence: number): string => `${confidence === 1 ? "1
 /** The bar as it was set: `95%`, `99.99%`. */
 export const barText = (bar: number): string => `${Number((100 * bar).toPrecision(6))}%`;
 
-/** Assets that are held for one reason. */
-export interface HeldGroup {
-  /** The weightiest doubt, empty where there is none. */
-  readonly reason: string;
-  readonly assets: readonly string[];
-  /** The least and the most of their probabilities: `0% to 45%`. */
-  readonly share: string;
-}
-
-/** The assets that need review by their weightiest reason, as `meshforge review` lists them: the least probable first. */
-export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "assets" | "threshold">): readonly HeldGroup[] {
+/** The assets that need review by their weightiest reason, as `meshforge review` lists them: the least probable first.
+ * reason: empty where there is none; share: the least and the most of their probabilities, as `0% to 45%`. */
+export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "assets" | "threshold">) {
   const held = assets.filter(({ state }) => state === "needs review");
   held.sort((a, b) => a.probability - b.probability || (a.asset < b.asset ? -1 : 1));
-  const groups = new Map<string, ConfidenceView[]>();
-  for (const row of held) {
-    const reason = row.reasons[0]?.text ?? "";
-    groups.set(reason, [...(groups.get(reason) ?? []), row]);
-  }
+  const groups = groupBy(held, ({ reasons }) => reasons[0]?.text ?? "", (row) => row);
   return [...groups].map(([reason, rows]) => {
     const ends = [rows[0], rows.at(-1)].map((row) => percentText(row?.probability ?? 0, bar));
     return { reason, assets: rows.map(({ asset }) => asset), share: [...new Set(ends)].join(" to ") };
@@ -99,10 +88,6 @@ export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: 
   return [`${asset}: ${sure}`, ...row.reasons.map((doubt) => `• ${doubt.text}`)].join("\n");
 }
 
-/** The rows of an assessment by asset. */
-export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, ConfidenceView>> =>
-  Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
-
 /** Kinds of questions that are asked while there is no program. */
 const FIRST: readonly ReviewQuestionView["kind"][] = ["repair", "orientation"];
 
@@ -111,9 +96,6 @@ export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): 
   const question = assessment?.question ?? null;
   return question && (assessment?.assets.length || FIRST.includes(question.kind)) ? question : null;
 }
-
-/** Whether a question is open. */
-export const isAsked = (state: Pick<ProjectState, "assessment">): boolean => openQuestion(state) !== null;
 
 /** Hulls of a group, by their keys, that get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
@@ -127,11 +109,8 @@ export function exceptionOf(one: HullInQuestion, exceptions: Exceptions, label: 
 }
 
 /** Positions of the hulls in question, by asset. */
-export function placesOf({ hulls }: Pick<ReviewQuestionView, "hulls">): Readonly<Record<string, readonly number[]>> {
-  const out: Record<string, number[]> = {};
-  for (const { asset, place } of hulls) (out[asset] ??= []).push(place);
-  return out;
-}
+export const placesOf = ({ hulls }: Pick<ReviewQuestionView, "hulls">): Readonly<Record<string, readonly number[]>> =>
+  Object.fromEntries(groupBy(hulls, ({ asset }) => asset, ({ place }) => place));
 
 /** What an answer is worth; null where that is little. */
 export function worthText({ gain }: Pick<ReviewQuestionView, "gain">): string | null {

@@ -1,6 +1,6 @@
 // Names that stand beside each other: what they have in common is left out, so that what tells them apart is read.
 import { byAsset, placeOf } from "./hullPlaces";
-import { oncePer } from "./once";
+import { groupBy, oncePer } from "./once";
 import type { Scene } from "./scene";
 
 const SIGN = /[/_.\-~: ]/;
@@ -36,13 +36,7 @@ export const hullNamesOf = oncePer(({ parts, hulls }: Pick<Scene, "parts" | "hul
 
 /** The names that begin with the word that more than half begin with; all where there is none. */
 function mostAlike(names: readonly string[]): readonly string[] {
-  const groups = new Map<string, string[]>();
-  for (const name of names) {
-    const word = firstWord(name);
-    const group = groups.get(word);
-    if (group) group.push(name);
-    else groups.set(word, [name]);
-  }
+  const groups = groupBy(names, firstWord, (name) => name);
   return [...groups.values()].find((group) => 2 * group.length > names.length) ?? names;
 }
 

@@ -6,7 +6,7 @@ import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails, type Scene, useScenes } from "./scenes";
 import { actionOf, placeFor, placeOf, setStep, skipOffer } from "./steps";
-import { notify, reportError, reportProblem } from "./toasts";
+import { notify, reportProblem } from "./toasts";
 import { type Draft, openStage, select, setDraft, setTool, show, useWorkspace } from "./workspace";
 
 interface DraftStatus {
@@ -106,9 +106,6 @@ async function trackSending(send: () => Promise<boolean>): Promise<boolean> {
   useDraftStatus.setState({ sending: true });
   try {
     return await send();
-  } catch (error) {
-    reportError(error);
-    return false;
   } finally {
     useDraftStatus.setState({ sending: false });
   }
@@ -119,20 +116,16 @@ export async function startDraft(action: string): Promise<void> {
   const { asset, stage } = useWorkspace.getState();
   if (asset === null) return;
   if (stage === "label" || stage === "learn") openStage("demonstrate");
-  try {
-    const { view } = await getDetails(asset);
-    if (useWorkspace.getState().asset !== asset) return;
-    const { rules, templates } = useProject.getState().project;
-    const place = stage === "review" ? null : (placeInHand(view) ?? placeFor(action, rules, view));
-    const form = findForm(action);
-    const usual = { name: action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: null };
-    const shown = place === null ? null : callOf(actionOf(place));
-    const given = shown?.name === action ? shown : null;
-    takeInHand({ ...usual, ...given, editing: place }, given?.each);
-    if (stage !== "review") showBefore(place ?? view.steps.length, view);
-  } catch (error) {
-    reportError(error);
-  }
+  const { view } = await getDetails(asset);
+  if (useWorkspace.getState().asset !== asset) return;
+  const { rules, templates } = useProject.getState().project;
+  const place = stage === "review" ? null : (placeInHand(view) ?? placeFor(action, rules, view));
+  const form = findForm(action);
+  const usual = { name: action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: null };
+  const shown = place === null ? null : callOf(actionOf(place));
+  const given = shown?.name === action ? shown : null;
+  takeInHand({ ...usual, ...given, editing: place }, given?.each);
+  if (stage !== "review") showBefore(place ?? view.steps.length, view);
 }
 
 /** The place of the step that is being changed; it stays that one with another action. */
@@ -145,19 +138,15 @@ function placeInHand({ steps }: AssetView): number | null {
 export async function draftStep(place: number, hulls?: readonly string[]): Promise<void> {
   const { asset } = useWorkspace.getState();
   if (asset === null) return;
-  try {
-    const { view } = await getDetails(asset);
-    if (useWorkspace.getState().asset !== asset) return;
-    const step = view.steps[place];
-    const call = callOf(step?.action ?? actionOf(place));
-    if (!findForm(call.name)) return;
-    openStage("demonstrate");
-    takeInHand({ ...call, editing: place });
-    showBefore(place, view);
-    select(hulls ?? step?.select ?? []);
-  } catch (error) {
-    reportError(error);
-  }
+  const { view } = await getDetails(asset);
+  if (useWorkspace.getState().asset !== asset) return;
+  const step = view.steps[place];
+  const call = callOf(step?.action ?? actionOf(place));
+  if (!findForm(call.name)) return;
+  openStage("demonstrate");
+  takeInHand({ ...call, editing: place });
+  showBefore(place, view);
+  select(hulls ?? step?.select ?? []);
 }
 
 /** Shows the asset with the steps before a place; where there are more, it stays so while they change. */

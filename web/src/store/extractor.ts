@@ -5,7 +5,6 @@ import { ServerProblem } from "../server/http";
 import type { Mark, SelectionView } from "../wire";
 import { type Coverage, coverageOf } from "./outcome";
 import { useScenes } from "./scenes";
-import { reportError } from "./toasts";
 import { type Highlight, select, setHighlight, useWorkspace, type WorkspaceState } from "./workspace";
 
 interface ExtractorState {
@@ -46,18 +45,14 @@ export function typeExtractor(text: string): void {
     return pointOut(null);
   }
   useExtractor.setState({ text });
-  timer = setTimeout(() => void search(text.trim(), signal).catch(reportError), WAIT);
+  timer = setTimeout(() => void search(text.trim(), signal), WAIT);
 }
 
 /** Selects what the text selects, once that is known; whether the text is an extractor. */
 export async function selectFound(): Promise<boolean> {
   const { text } = useExtractor.getState();
   clearTimeout(timer);
-  try {
-    if (useExtractor.getState().of !== requestKey(text)) await search(text.trim(), stop.signal);
-  } catch (error) {
-    reportError(error);
-  }
+  if (useExtractor.getState().of !== requestKey(text)) await search(text.trim(), stop.signal);
   const { found, of } = useExtractor.getState();
   if (!found || found.mark || of !== requestKey(text)) return false;
   const there = new Set(useScenes.getState().scene?.hulls.map((hull) => hull.name));
@@ -80,7 +75,7 @@ async function search(extractor: string, signal: AbortSignal): Promise<void> {
     const found = await api.select({ asset, steps: stepsOf(showing), extractor }, signal);
     useExtractor.setState({ found, of, family: null });
     if (found.mark) return pointOut(null);
-    void searchFamily(extractor, stepsOf(showing) + 1, signal).catch(reportError);
+    void searchFamily(extractor, stepsOf(showing) + 1, signal);
   } catch (error) {
     if (signal.aborted) return;
     if (!(error instanceof ServerProblem)) throw error;

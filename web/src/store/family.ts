@@ -70,7 +70,11 @@ export function filterAssets(
     const wanted = filters.only.length === 0 || filters.only.some((name) => MATCHES[name](card, engine, confidence[asset]));
     return wanted && words.every((word) => matchesWord(card, word, labels));
   });
-  return sortAssets(kept, cards, filters.sort, engine, confidence);
+  const { sort: by } = filters;
+  if (by === "name") return kept;
+  const weigh = (asset: string, card = cards[asset]) => (by === "probability" ? -urgency(confidence[asset]) : card ? AMOUNT[by](card, engine) : -1);
+  const amounts = new Map(kept.map((asset) => [asset, weigh(asset)]));
+  return [...kept].sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
 }
 
 /** Whether a word stands in the id of an asset, or begins a label that one of its hulls has. */
@@ -89,20 +93,6 @@ const AMOUNT: Readonly<Record<Amount, (card: Card, engine: string) => number>> =
   findings: (card, engine) => weightOf(card, engine),
 };
 
-/** Sorts assets that are in order by name. */
-function sortAssets(
-  named: readonly string[],
-  cards: Cards,
-  by: Filters["sort"],
-  engine: string,
-  confidence: Confidence,
-): readonly string[] {
-  if (by === "name") return named;
-  const weigh = (asset: string) => (by === "probability" ? -urgency(confidence[asset]) : amount(cards[asset], by, engine));
-  const amounts = new Map(named.map((asset) => [asset, weigh(asset)]));
-  return [...named].sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
-}
-
 const byName = new Intl.Collator("en", { numeric: true });
 
 /** The assets by name, numbers in them by their size; a list is sorted once. */
@@ -113,9 +103,6 @@ function urgency(sure: ConfidenceView | undefined): number {
   if (!sure) return 3;
   return sure.state === "excluded" ? 2 : sure.probability;
 }
-
-const amount = (card: Card | undefined, by: Amount, engine: string) =>
-  card ? AMOUNT[by](card, engine) : -1;
 
 /** The asset before or after one, round the end; one that is not shown stands where the family has it. */
 export function neighbour(

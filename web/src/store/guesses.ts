@@ -8,7 +8,6 @@ import { draftStep } from "./draft";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
 import { isDeclined, isSkipped, openRules, setStep } from "./steps";
-import { reportError } from "./toasts";
 import { useWorkspace } from "./workspace";
 
 interface GuessesState {
@@ -39,12 +38,12 @@ export function followGuesses(): () => void {
     const key = stateKey();
     if (key === known) return;
     known = key;
-    ask(key).catch(reportError);
+    void ask(key);
   }
   const stops = [
     useWorkspace.subscribe((now, before) => {
       look();
-      if (fresh && before.draft && !now.draft) offer().catch(reportError);
+      if (fresh && before.draft && !now.draft) void offer();
     }),
     useProject.subscribe(look),
   ];

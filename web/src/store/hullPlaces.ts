@@ -1,5 +1,6 @@
 // Hulls by name and by position: of each asset that was looked at, and by the names they have where several assets are
 // shown side by side.
+import { groupBy } from "./once";
 
 /** A hull by its asset and its name there. */
 export interface HullPlace {
@@ -33,12 +34,4 @@ export function sheetName(asset: string, hull: string): string {
 export const placeOf = (name: string): HullPlace | undefined => owners.get(name);
 
 /** Hulls by asset, in the order in which the assets come. */
-export function byAsset(places: Iterable<HullPlace>): Map<string, string[]> {
-  const out = new Map<string, string[]>();
-  for (const { asset, hull } of places) {
-    const known = out.get(asset);
-    if (known) known.push(hull);
-    else out.set(asset, [hull]);
-  }
-  return out;
-}
+export const byAsset = (places: Iterable<HullPlace>): Map<string, string[]> => groupBy(places, ({ asset }) => asset, ({ hull }) => hull);

@@ -7,7 +7,6 @@ import { useLabelSources } from "./labelSources";
 import { labelProgress } from "./labelWalk";
 import { useRebuildChoice } from "./newAssets";
 import { useProject } from "./project";
-import { reportError } from "./toasts";
 import { countText, durationText } from "./words";
 
 export const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
@@ -107,9 +106,7 @@ export const checkAll = (): Promise<boolean> => startJob({ kind: "check" });
 /** Tries a goal that is not kept on all assets. */
 export const tryGoal = (text: string): Promise<boolean> => startJob({ kind: "check", goal: text });
 
-export function cancelJob(id: string): void {
-  api.cancelJob(id).catch(reportError);
-}
+export const cancelJob = (id: string): Promise<Job> => api.cancelJob(id);
 
 /** The latest job of a kind. */
 export function useJob(kind: Job["kind"]): Job | null {

@@ -4,7 +4,6 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import type { LabelSources } from "../wire";
 import { countReadable, useProject } from "./project";
-import { reportError } from "./toasts";
 
 export const useLabelSources = create<LabelSources>()(() => ({ files: 0, names: 0 }));
 
@@ -17,7 +16,7 @@ export function useFreshSources(): void {
   useEffect(() => {
     let is = true;
     const timer = setTimeout(() => {
-      api.labelSources().then((found) => is && useLabelSources.setState(found, true), reportError);
+      void api.labelSources().then((found) => is && useLabelSources.setState(found, true));
     }, 250);
     return () => {
       is = false;

@@ -6,7 +6,7 @@ import { labelHulls, NO_PART, ownHulls } from "./labels";
 import { oncePer } from "./once";
 import { oncePerFamily, useProject } from "./project";
 import { getDetails, useScenes } from "./scenes";
-import { notify, reportError } from "./toasts";
+import { notify } from "./toasts";
 import { lookFrom, openAsset, openStage, select, setBrush, setLayout, useWorkspace } from "./workspace";
 
 /** A hull by its place in its asset; sure: the percentage of its label, as the card has it. */
@@ -83,7 +83,7 @@ export function applyLabel(label: string | null): void | Promise<void> {
   const others = [...elsewhere].flatMap(([other, names]) => names.map((hull) => ({ asset: other, hull })));
   if (others.length) return void labelHulls(asset, hulls, label, false, others);
   if (!isCurrent(asset, hulls)) return void labelHulls(asset, hulls, label);
-  return label === null ? labelHulls(asset, hulls, null).then(() => undefined) : labelAndGoOn(asset, hulls, label);
+  return labelHulls(asset, hulls, label, label !== null).then((done) => (done && label !== null ? walk() : undefined));
 }
 
 /** The labels of the selected hulls are right: the person vouches for them; then goes on to the next one of the walk. */
@@ -98,10 +98,6 @@ export async function confirmLabels(): Promise<void> {
   if (hulls.length) await walk();
 }
 
-async function labelAndGoOn(asset: string, hulls: readonly string[], label: string): Promise<void> {
-  if (await labelHulls(asset, hulls, label, true)) await walk();
-}
-
 /** Opens the asset of the next hull of the walk, or of the one before, selects the hull and looks at it. */
 export async function walk(by: 1 | -1 = 1): Promise<void> {
   const { cards, order } = useProject.getState();
@@ -110,16 +106,12 @@ export async function walk(by: 1 | -1 = 1): Promise<void> {
   openStage("label");
   openAsset(next.asset);
   setLayout({ gallery: false });
-  try {
-    const { view } = await getDetails(next.asset);
-    const hull = view.hulls[next.position];
-    if (!hull || useWorkspace.getState().asset !== next.asset) return;
-    select([hull.name]);
-    lookFrom("near");
-    current = { ...next, hull: hull.name };
-  } catch (error) {
-    reportError(error);
-  }
+  const { view } = await getDetails(next.asset);
+  const hull = view.hulls[next.position];
+  if (!hull || useWorkspace.getState().asset !== next.asset) return;
+  select([hull.name]);
+  lookFrom("near");
+  current = { ...next, hull: hull.name };
 }
 
 /** The hull that is selected, by which the walk goes on; null where it begins anew. */

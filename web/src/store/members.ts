@@ -11,18 +11,15 @@ export function whyNotLeave(assets: readonly string[]): string | null {
   return assets.length > 1 ? "They are all assets of the family." : "It is the only asset of the family.";
 }
 
-/** Leaves assets out of the family; all that is kept for them stays. */
-export const leaveOut = (assets: readonly string[]): Promise<void> =>
-  goOn(assets, () => perform({ kind: "exclude", ids: [...assets], reason: "not of this family" }));
-
-export const putBack = (assets: readonly string[]): Promise<boolean> =>
-  perform({ kind: "exclude", ids: [...assets], reason: null });
-
-/** Does what takes assets away, then opens the next one that stays where one of them was open. */
-async function goOn(assets: readonly string[], does: () => Promise<boolean>): Promise<void> {
+/** Leaves assets out of the family; the next one that stays is opened where one of them was open. */
+export async function leaveOut(assets: readonly string[]): Promise<void> {
   const { order } = useProject.getState();
   const last = Math.max(...assets.map((asset) => order.indexOf(asset)));
   const stays = (asset: string) => !assets.includes(asset);
   const next = order.slice(last).find(stays) ?? order.findLast(stays) ?? null;
-  if ((await does()) && assets.includes(useWorkspace.getState().asset ?? "")) openAsset(next);
+  const done = await perform({ kind: "exclude", ids: [...assets], reason: "not of this family" });
+  if (done && assets.includes(useWorkspace.getState().asset ?? "")) openAsset(next);
 }
+
+export const putBack = (assets: readonly string[]): Promise<boolean> =>
+  perform({ kind: "exclude", ids: [...assets], reason: null });

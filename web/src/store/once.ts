@@ -1,4 +1,4 @@
-// What was worked out or fetched before, and is kept.
+// What was worked out or fetched before, and is kept; and groups of a list.
 
 /** Works something out of an object once, however many ask, as long as it is the same object. */
 export function oncePer<Key extends object, Result>(compute: (key: Key) => Result): (key: Key) => Result {
@@ -15,4 +15,15 @@ export function keepLatest<Value>(kept: Map<string, Value>, key: string, value: 
   kept.delete(key);
   kept.set(key, value);
   if (kept.size > most) kept.delete(kept.keys().next().value ?? "");
+}
+
+/** Values of rows by a key of theirs, in the order in which the keys come. */
+export function groupBy<Row, Value>(rows: Iterable<Row>, key: (row: Row) => string, value: (row: Row) => Value): Map<string, Value[]> {
+  const out = new Map<string, Value[]>();
+  for (const row of rows) {
+    const group = out.get(key(row));
+    if (group) group.push(value(row));
+    else out.set(key(row), [value(row)]);
+  }
+  return out;
 }

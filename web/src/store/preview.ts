@@ -9,7 +9,6 @@ import { selectedHulls, useDraftStatus } from "./draft";
 import { useProject } from "./project";
 import { useScenes } from "./scenes";
 import { placeOf } from "./steps";
-import { reportError } from "./toasts";
 import { countText } from "./words";
 import { useWorkspace } from "./workspace";
 
@@ -45,7 +44,7 @@ export function followPreview(result: boolean): () => void {
     clearTimeout(timer);
     timer = setTimeout(() => {
       if (wait === LANDING) useDraftStatus.setState({ landing: null });
-      look().catch(reportError);
+      void look();
     }, wait);
   }
   const stops = [

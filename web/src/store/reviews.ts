@@ -70,15 +70,8 @@ export function countExportable(cards: readonly Card[], confidence: Readonly<Rec
   return { signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])).length, all: cards.filter(isWritten).length };
 }
 
-interface Numbers {
-  hulls: readonly [number, number];
-  vertices: readonly [number, number];
-  faces: readonly [number, number];
-  volume: readonly [number, number];
-}
-
 /** Numbers before and after an edit. */
-export function numbersOf(before: readonly HullView[], edit: EditHeader): Numbers {
+export function numbersOf(before: readonly HullView[], edit: EditHeader) {
   const sum = (hulls: readonly HullView[], of: "vertices" | "faces"): number =>
     hulls.reduce((total, hull) => total + hull[of], 0);
   return {
@@ -86,7 +79,7 @@ export function numbersOf(before: readonly HullView[], edit: EditHeader): Number
     vertices: [sum(before, "vertices"), sum(edit.hulls, "vertices")],
     faces: [sum(before, "faces"), sum(edit.hulls, "faces")],
     volume: edit.volume,
-  };
+  } as const;
 }
 
 /** What alarms of an asset begin with, by the number that each is about (`signoff/alarms.py`). */

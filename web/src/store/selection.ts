@@ -1,4 +1,5 @@
 // Which hulls a selection grows to, and which are hidden.
+import { groupBy } from "./once";
 import type { Scene } from "./scenes";
 import { useWorkspace } from "./workspace";
 
@@ -7,19 +8,8 @@ export type Selection = ReadonlySet<string>;
 export type Connected = Pick<Scene, "contacts"> & { readonly hulls: readonly { name: string; label: string | null }[] };
 
 /** The hulls that touch each hull. */
-function neighboursOf({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> {
-  const out = new Map<string, string[]>();
-  const add = (a: string, b: string) => {
-    const known = out.get(a);
-    if (known) known.push(b);
-    else out.set(a, [b]);
-  };
-  for (const [a, b] of contacts) {
-    add(a, b);
-    add(b, a);
-  }
-  return out;
-}
+const neighboursOf = ({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> =>
+  groupBy([...contacts, ...contacts.map(([a, b]) => [b, a] as const)], ([a]) => a, ([, b]) => b);
 
 /** The selection with all that touches it. */
 export function withNeighbours(scene: Connected, selection: Selection): Set<string> {

@@ -73,12 +73,8 @@ function standingBox(scene: Scene): Box {
   return scene.hulls.length ? { low, high } : { low: [0, 0, 0], high: [0, 0, 0] };
 }
 
-interface Placed extends Pick<Scene, "hulls" | "contacts"> {
-  readonly part: ScenePart;
-}
-
 /** An asset where it stands: the middle of its box there, its foot on the ground. */
-function place(scene: Scene, { low, high }: Box, scale: number, at: Triple): Placed {
+function place(scene: Scene, { low, high }: Box, scale: number, at: Triple) {
   const { asset, view } = scene;
   const mid = (axis: 0 | 1) => (low[axis] + high[axis]) / 2;
   const by: Triple = [at[0] - scale * mid(0), at[1] - scale * mid(1), at[2] - scale * low[2]];
@@ -86,7 +82,7 @@ function place(scene: Scene, { low, high }: Box, scale: number, at: Triple): Pla
   return {
     hulls: scene.hulls.map((hull) => ({ ...hull, name: sheetName(asset, hull.name), shape: moved(hull.shape, view.upright, scale, by) })),
     contacts: scene.contacts.map(([a, b]) => [sheetName(asset, a), sheetName(asset, b)] as const),
-    part: { asset, low: there(low), high: there(high), scale },
+    part: { asset, low: there(low), high: there(high), scale } satisfies ScenePart,
   };
 }
 

@@ -1,12 +1,11 @@
 // Selecting hulls that look like the selected ones, in what is shown or in all assets of the family; asked again, more.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
 import { shownAssets } from "./family";
 import { type HullPlace, notePositions, sheetName } from "./hullPlaces";
 import { ownHulls } from "./labels";
 import { useProject } from "./project";
-import { notify, reportError } from "./toasts";
+import { notify } from "./toasts";
 import { countText } from "./words";
 import { allSelected, selectPlaces, useWorkspace } from "./workspace";
 
@@ -42,9 +41,6 @@ export async function selectSimilar(where: Where): Promise<void> {
     if (found.unread.length) notify(`${countText(found.unread.length, "asset")} could not be looked in: ${found.unread[0]}`);
     const { passed_over: over } = found;
     if (over) notify(`${countText(over, "asset")} ${over === 1 ? "was" : "were"} not looked in, as there are too many: filter the family to look in others.`);
-  } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error;
-    reportError(error);
   } finally {
     useSimilar.setState({ searching: false });
   }

@@ -4,7 +4,6 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
-import { reportError } from "./toasts";
 import { type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
@@ -83,11 +82,7 @@ export async function uploadForProject(files: readonly PlacedFile[]): Promise<vo
   if (useStart.getState().busy) return;
   chooseSource("upload");
   set({ found: null, project: "", problem: null });
-  try {
-    await api.clearFiles(); // what was dropped before
-  } catch (error) {
-    return reportError(error);
-  }
+  await api.clearFiles(); // what was dropped before
   await sendFiles(files, api.stageProjectFile, () => look(api.lookAtFiles));
 }
 
@@ -116,35 +111,18 @@ export function newProject({ source, folder, family, project, decompose, found }
 }
 
 /** Makes the new project, which opens by itself. */
-export async function makeProject(): Promise<void> {
-  await attempt("make", "project", () => api.makeProject(newProject(useStart.getState())));
-}
+export const makeProject = (): Promise<void> => attempt("make", "project", () => api.makeProject(newProject(useStart.getState())));
 
 /** Makes the project of the guided tour in a folder, and opens it. */
-export async function takeTour(project: string): Promise<void> {
-  await attempt("make", "tour", () => api.makeProject({ kind: "tour", project }));
-}
+export const takeTour = (project: string): Promise<void> => attempt("make", "tour", () => api.makeProject({ kind: "tour", project }));
 
-export async function openProject(folder: string): Promise<void> {
-  await attempt("open", "open", () => api.openProject(folder));
-}
+export const openProject = (folder: string): Promise<void> => attempt("open", "open", () => api.openProject(folder));
 
-export async function forgetProject(folder: string): Promise<void> {
-  try {
-    set({ view: await api.forgetProject(folder), problem: null });
-  } catch (error) {
-    reportError(error);
-  }
-}
+export const forgetProject = (folder: string): Promise<void> =>
+  api.forgetProject(folder).then((view) => set({ view, problem: null }));
 
 /** Leaves the open project for the start page. */
-export async function leaveProject(): Promise<void> {
-  try {
-    await api.leaveProject();
-  } catch (error) {
-    reportError(error);
-  }
-}
+export const leaveProject = (): Promise<unknown> => api.leaveProject();
 
 /** Does one thing at a time; what goes wrong is shown at its place. */
 async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does: () => Promise<unknown>): Promise<void> {
@@ -153,8 +131,8 @@ async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does
   try {
     await does();
   } catch (error) {
-    if (error instanceof ServerProblem) set({ problem: { place, problem: error.problem } });
-    else reportError(error);
+    if (!(error instanceof ServerProblem)) throw error;
+    set({ problem: { place, problem: error.problem } });
   } finally {
     set({ busy: null });
   }

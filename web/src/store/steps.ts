@@ -5,33 +5,14 @@ import { callOf } from "./actions";
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
-import { reportError } from "./toasts";
 import type { Draft } from "./workspace";
 
 type Change = (steps: readonly StepEdit[]) => readonly StepEdit[];
 
-/** How long to wait for the news of a change that was made [ms]. */
-const NEWS = 1000;
-
 /** Changes the steps of an asset as they are on the server now; done once the page knows of it, too. */
 async function changeSteps(asset: string, change: Change): Promise<boolean> {
   const { view } = await getDetails(asset);
-  const news = nextChange(asset);
-  const done = await perform({ kind: "steps", asset, version: view.version, steps: [...change(stepTexts(view.steps))] });
-  if (done) await Promise.race([news.arrived, new Promise((late) => setTimeout(late, NEWS))]);
-  news.stop();
-  return done;
-}
-
-/** The next time that the server says that an asset changed. */
-function nextChange(asset: string): { arrived: Promise<void>; stop: () => void } {
-  let stop = (): void => undefined;
-  const arrived = new Promise<void>((arrive) => {
-    stop = useProject.subscribe((now, before) => {
-      if (now.revisions[asset] !== before.revisions[asset]) arrive();
-    });
-  });
-  return { arrived, stop };
+  return perform({ kind: "steps", asset, version: view.version, steps: [...change(stepTexts(view.steps))] });
 }
 
 const stepTexts = (steps: readonly StepView[]): StepEdit[] =>
@@ -64,9 +45,8 @@ export const withoutStep =
 export const openRules = (view: AssetView): number[] => openPlaces(useProject.getState().project.rules, view);
 
 /** Places (from 0) of the family's rules that an asset says nothing about. */
-export function openPlaces(rules: readonly RuleLine[], view: Pick<AssetView, "steps">): number[] {
-  return rules.map((_, k) => k).filter((k) => view.steps[k]?.select == null);
-}
+export const openPlaces = (rules: readonly RuleLine[], view: Pick<AssetView, "steps">): number[] =>
+  rules.map((_, k) => k).filter((k) => view.steps[k]?.select == null);
 
 /** The place of the first open rule that does such an action; null where there is none. */
 export function placeFor(
@@ -142,14 +122,10 @@ const stateKey = (asset: string, place: number): string =>
 
 /** Gives the step in a place (from 0) another action, on each of some assets. */
 export async function changeActionOn(assets: readonly string[], place: number, action: ActionCall): Promise<void> {
-  try {
-    for (const asset of assets) {
-      const done = await changeSteps(asset, (steps) =>
-        steps.map((step, k) => (k === place ? { ...step, action } : step)),
-      );
-      if (!done) return;
-    }
-  } catch (error) {
-    reportError(error);
+  for (const asset of assets) {
+    const done = await changeSteps(asset, (steps) =>
+      steps.map((step, k) => (k === place ? { ...step, action } : step)),
+    );
+    if (!done) return;
   }
 }

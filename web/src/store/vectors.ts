@@ -12,6 +12,9 @@ export const cross = (a: Triple, b: Triple): Triple => [
 
 export type Axis = "x" | "y" | "z";
 
+/** The choice of an axis that a plane lies across. */
+export const ACROSS = (["x", "y", "z"] as const).map((value) => ({ value, label: value.toUpperCase(), name: `Across the ${value.toUpperCase()} axis` }));
+
 /** An axis as rules name it, in the frame that is shown; yUp: whether its Y is shown as up, as `AssetView.y_up` says. */
 export function axisShown(axis: Axis, yUp: boolean): Triple {
   if (axis === "x") return [1, 0, 0];

@@ -42,13 +42,10 @@ export function editorExtensions(bare: boolean, name: string): Extension {
     EditorState.languageData.of(() => [{ closeBrackets: { brackets: ["(", '"'] } }]),
     autocompletion({ override: [(context) => complete(context, bare)], icons: false }),
     keymap.of([...closeBracketsKeymap, ...historyKeymap, ...defaultKeymap]),
-    viewerExtensions(name),
+    syntaxColors,
+    theme,
+    EditorView.contentAttributes.of({ "aria-label": name, spellcheck: "false" }),
   ];
-}
-
-/** Program text as it is shown, also where it cannot be changed. */
-export function viewerExtensions(name: string): Extension {
-  return [syntaxColors, theme, EditorView.contentAttributes.of({ "aria-label": name, spellcheck: "false" })];
 }
 
 /** What may be put where one types; null where nothing is to be offered. */

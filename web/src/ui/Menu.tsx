@@ -1,4 +1,5 @@
 // A menu that opens from a button.
+import { Check } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
 import type { ReactNode } from "react";
 import css from "./ui.module.css";
@@ -7,12 +8,15 @@ export interface MenuLine {
   label: ReactNode;
   keys?: string | undefined;
   disabled?: boolean;
+  /** Whether it is what is chosen, where it is a choice. */
+  on?: boolean;
   onSelect: () => void;
 }
 
-/** A line for each of some values, of which one is chosen now. */
-export const choiceLines = <Value extends string>(texts: Readonly<Record<Value, string>>, now: Value, choose: (value: Value) => void): MenuLine[] =>
-  (Object.keys(texts) as Value[]).map((value) => ({ label: value === now ? `✓ ${texts[value]}` : texts[value], onSelect: () => choose(value) }));
+/** A line for each of some values, by their names, of which one is chosen. */
+export function choiceLines<T extends string>(names: Readonly<Record<T, ReactNode>>, now: T, onPick: (value: T) => void): MenuLine[] {
+  return (Object.keys(names) as T[]).map((value) => ({ label: names[value], on: value === now, onSelect: () => onPick(value) }));
+}
 
 /** Not modal, as that hides controls from screen readers that still can take the focus; a shade takes clicks beside it. */
 export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (MenuLine | "line")[] }) {
@@ -28,7 +32,10 @@ export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (
                 <DropdownMenu.Separator key={k} className={css.menuLine} />
               ) : (
                 <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={line.onSelect}>
-                  <span>{line.label}</span>
+                  <span className={css.menuLabel} aria-current={line.on}>
+                    {line.on !== undefined && <Check size={13} aria-hidden style={{ visibility: line.on ? "visible" : "hidden" }} />}
+                    {line.label}
+                  </span>
                   {line.keys && <kbd>{line.keys}</kbd>}
                 </DropdownMenu.Item>
               ),

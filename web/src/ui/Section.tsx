@@ -23,6 +23,17 @@ export function Note({ mood = "plain", children }: { mood?: "plain" | "good" | "
   );
 }
 
+/** What went wrong, and what to do about it. */
+export function ProblemNote({ message, remedy, children }: { message: string; remedy: string | null; children?: ReactNode }) {
+  return (
+    <Note mood="bad">
+      {message}
+      {remedy && <p className={css.remedy}>{remedy}</p>}
+      {children}
+    </Note>
+  );
+}
+
 /** A swatch of a label's colour; fill: as hulls have it. */
 export function Swatch({ color, fill = "solid" }: { color: string; fill?: "solid" | "dotted" | "hatched" }) {
   return <span className={css.swatch} data-fill={fill} style={{ backgroundColor: color }} aria-hidden />;

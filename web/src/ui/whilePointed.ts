@@ -1,12 +1,5 @@
 // What happens while one points at a part of the page, by the pointer or by the focus.
-interface Pointing {
-  onPointerEnter: () => void;
-  onPointerLeave: () => void;
-  onFocus: () => void;
-  onBlur: () => void;
-}
-
-export const whilePointed = (on: () => void, off: () => void): Pointing => ({
+export const whilePointed = (on: () => void, off: () => void) => ({
   onPointerEnter: on,
   onPointerLeave: off,
   onFocus: on,

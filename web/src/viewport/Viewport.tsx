@@ -2,6 +2,7 @@
 import { useEffect, useRef, useState } from "react";
 import type { WebGLRenderer } from "three";
 import { useScenes } from "../store/scenes";
+import { useSection } from "../store/section";
 import { countText } from "../store/words";
 import { setTool, useWorkspace } from "../store/workspace";
 import { type Canvas, getCanvas } from "./canvas";
@@ -56,27 +57,31 @@ export function Viewport() {
 }
 
 function CanvasLayers({ sheet }: { sheet: Canvas }) {
+  const tool = useWorkspace((workspace) => workspace.tool);
+  const contacts = useWorkspace((workspace) => workspace.view.contacts);
+  const isCutOpen = useSection((section) => section.on);
+  const parts = useScenes(({ scene }) => scene?.parts);
   return (
     <>
       <CanvasView gl={sheet.gl} />
       <DrawnRegion />
       <CompareLine />
-      <Gaps />
+      {contacts && <Gaps />}
       <LandmarkMarks />
       <RulerMarks />
-      <SectionHandle />
+      {isCutOpen && <SectionHandle />}
       <ViewCube />
       <Triad />
       <InfoLines />
       <Legend />
-      <SheetNames />
+      {parts && <SheetNames parts={parts} />}
       <BrushFrame />
       <div className={css.top}>
         <HiddenChip />
-        <SectionBar />
-        <RulerBar />
-        <CutBar />
-        <LandmarkBar />
+        {isCutOpen && <SectionBar />}
+        {tool === "ruler" && <RulerBar />}
+        {tool === "cut" && <CutBar />}
+        {tool === "landmark" && <LandmarkBar />}
         <SelectionBar />
       </div>
     </>

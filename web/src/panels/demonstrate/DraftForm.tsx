@@ -8,12 +8,11 @@ import { acceptDraft, changeArgument, changeDraft, dropDraft, startDraft, useDra
 import { previewText, usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { changeActionOn } from "../../store/steps";
-import { reportError } from "../../store/toasts";
 import { listText, shortName } from "../../store/words";
 import { type Draft, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
 import { Check as CheckBox } from "../../ui/fields";
-import { Note } from "../../ui/Section";
+import { Note, ProblemNote } from "../../ui/Section";
 import type { ActionForm } from "../../wire";
 import { ArgumentField, Field } from "./ArgumentField";
 import css from "./demonstrate.module.css";
@@ -22,6 +21,7 @@ export function DraftForm() {
   const draft = useWorkspace((workspace) => workspace.draft);
   const forms = useProject((state) => state.language.actions);
   const form = draft && formOf(draft.name, forms);
+  const selected = useWorkspace((workspace) => workspace.selection.size);
   const onKeyDown = (event: KeyboardEvent) => {
     if (!draft || !isAcceptKey(event)) return;
     event.preventDefault();
@@ -30,7 +30,7 @@ export function DraftForm() {
   return (
     <div className={css.draft} onKeyDown={onKeyDown}>
       <ActionChoice forms={forms} action={draft?.name ?? null} />
-      {draft && form ? <Form draft={draft} form={form} /> : <Hint />}
+      {draft && form ? <Form draft={draft} form={form} /> : <p className={css.hint}>{selected ? "Choose an action." : "Select hulls in the view, then choose an action."}</p>}
     </div>
   );
 }
@@ -41,13 +41,6 @@ const accept = (): void => runInTurn(acceptDraft);
 function isAcceptKey({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
   if (key !== "Enter" || ctrlKey || metaKey || altKey || !(target instanceof Element)) return false;
   return target.matches("[aria-pressed=true], [role=radio], [role=slider], input, select");
-}
-
-function Hint() {
-  const selected = useWorkspace((workspace) => workspace.selection.size);
-  return (
-    <p className={css.hint}>{selected ? "Choose an action." : "Select hulls in the view, then choose an action."}</p>
-  );
 }
 
 function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
@@ -96,7 +89,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           >
             {isReview ? "Keep this edit" : draft.editing === null ? "Add step" : `Keep as step ${draft.editing + 1}`}
           </Button>
-          <Button onClick={() => void dropDraft().catch(reportError)} keys="Esc" tip="Cancel the action">
+          <Button onClick={() => void dropDraft()} keys="Esc" tip="Cancel the action">
             Cancel
           </Button>
         </div>
@@ -137,13 +130,7 @@ function PreviewNote({ lacking }: { lacking: string | null }) {
   const problem = useDraftStatus((state) => state.problem);
   if (lacking) return <Note>{lacking}</Note>;
   if (!selected) return <Note>Nothing is selected: click the hulls in the view.</Note>;
-  if (problem) {
-    return (
-      <Note mood="bad">
-        {problem.message} {problem.remedy}
-      </Note>
-    );
-  }
+  if (problem) return <ProblemNote {...problem} />;
   if (!header) return <Note>{selected === 1 ? "1 hull" : `${selected} hulls`} selected</Note>;
   const wrong = header.findings.filter((finding) => finding.severity === "error");
   return (

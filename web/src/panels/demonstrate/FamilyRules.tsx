@@ -10,7 +10,6 @@ import { clearStepHighlight, highlightStep } from "../../store/highlight";
 import { useProject } from "../../store/project";
 import { useAssetView } from "../../store/scenes";
 import { amountText, openPlaces } from "../../store/steps";
-import { reportError } from "../../store/toasts";
 import { countText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
@@ -107,15 +106,8 @@ function StepSign({ step }: { step: AssetView["steps"][number] | undefined }) {
   return <Check size={15} className={css.good} role="img" aria-label="shown" />;
 }
 
-interface GuessLineProps {
-  guess: Guess | undefined;
-  view: AssetView;
-  place: number;
-  isNext: boolean;
-}
-
 /** What the program would select for an open rule: to be accepted, corrected, or answered with nothing. */
-function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
+function GuessLine({ guess, view, place, isNext }: Pick<RuleRowProps, "view" | "place" | "isNext"> & { guess: Guess | undefined }) {
   const sound = guess?.error === null ? guess : undefined;
   const count = sound?.select.length ?? 0;
   return (
@@ -128,7 +120,7 @@ function GuessLine({ guess, view, place, isNext }: GuessLineProps) {
             look={isNext ? "primary" : "plain"}
             keys={isNext ? "Enter" : undefined}
             tip="Take the guess as the step"
-            onClick={() => runInTurn(() => acceptGuess(place + 1).catch(reportError))}
+            onClick={() => runInTurn(() => acceptGuess(place + 1))}
           >
             Accept
           </Button>

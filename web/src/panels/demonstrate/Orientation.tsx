@@ -1,6 +1,6 @@
 // Which way is up on every asset: set by landmarks, which are clicked, or written as text.
 import { Crosshair, Pencil, X } from "lucide-react";
-import { type FormEvent, useEffect, useState } from "react";
+import { type FormEvent, useEffect, useEffectEvent, useState } from "react";
 import { startLandmarks } from "../../commands/demonstrate";
 import { perform } from "../../store/edits";
 import { pairFromClicks, withoutPair, withPair } from "../../store/orientation";
@@ -65,54 +65,24 @@ function setLandmarks({ snap, pairs }: Pick<OrientView, "snap" | "pairs">): void
   void perform({ kind: "landmarks", snap, pairs });
 }
 
-/** A direction from two clicked hulls: it points from the landmark of the first to that of the second. */
+/** A direction from two clicked hulls: it points from the landmark of the first to that of the second; the view says what to click. */
 function LandmarkClicks({ orient }: { orient: OrientView }) {
   const clicking = useWorkspace((workspace) => workspace.tool === "landmark");
   const [direction, setDirection] = useState<Direction>("+Z");
+  const look = useEffectEvent(([start, end]: readonly string[]) => {
+    if (start !== undefined && end !== undefined) take(orient, direction, start, end);
+  });
+  useEffect(() => useWorkspace.subscribe(({ landmarks }) => look(landmarks)), []);
   if (!clicking) {
     return (
-      <Button
-        icon={Crosshair}
-        onClick={startLandmarks}
-        tip="Click a hull where the direction starts and one where it ends"
-      >
+      <Button icon={Crosshair} onClick={startLandmarks} tip="Click a hull where the direction starts and one where it ends">
         {orient.pairs.length ? "Set another by clicking" : "Set by clicking"}
       </Button>
     );
   }
-  return <ClickForm orient={orient} direction={direction} setDirection={setDirection} />;
-}
-
-interface ClickFormProps {
-  orient: OrientView;
-  direction: Direction;
-  setDirection: (direction: Direction) => void;
-}
-
-function ClickForm({ orient, direction, setDirection }: ClickFormProps) {
-  const first = useWorkspace((workspace) => workspace.landmarks[0]);
-  useEffect(
-    () =>
-      useWorkspace.subscribe(({ landmarks: [start, end] }) => {
-        if (start === undefined || end === undefined) return;
-        take(orient, direction, start, end);
-      }),
-    [orient, direction],
-  );
   return (
     <div className={css.clicking}>
       <DirectionField value={direction} onChange={setDirection} />
-      <Note>
-        {first === undefined ? (
-          <>
-            <strong>1.</strong> Click a hull where {direction.replace("-", "−")} starts, as a leg for up.
-          </>
-        ) : (
-          <>
-            Starts at <strong>{labelOf(first) ?? first}</strong>. <strong>2.</strong> Click a hull that it points to.
-          </>
-        )}
-      </Note>
       <Button onClick={() => setTool("select")}>Cancel</Button>
     </div>
   );

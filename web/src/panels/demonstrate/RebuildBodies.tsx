@@ -1,9 +1,9 @@
 // Looking for hulls of all assets that hold more than one part: pictures to tick, of which the bodies are made anew.
-import { Hammer, Search, Square } from "lucide-react";
+import { Hammer, Search } from "lucide-react";
 import { useState } from "react";
-import { cancelJob, dismissSpanning, findSpanning, rebuildBodies, useJob, whyNotRebuild } from "../../store/jobs";
+import { dismissSpanning, findSpanning, rebuildBodies, useJob, whyNotRebuild } from "../../store/jobs";
 import { useOwnNames, useProject } from "../../store/project";
-import { capitalize, countText, listText } from "../../store/words";
+import { countText, listText } from "../../store/words";
 import { visit } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Check } from "../../ui/fields";
@@ -12,28 +12,15 @@ import { Section } from "../../ui/Section";
 import type { Job, JobLine } from "../../wire";
 import { InSight } from "../questions/GroupHulls";
 import questions from "../questions/questions.module.css";
-import { JobLines, JobNote } from "../review/JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import css from "./demonstrate.module.css";
 
 export function RebuildBodies() {
   const job = useJob("rebuild");
   return (
     <Section title="Prepare all assets">
-      {job?.state === "running" ? <Running job={job} /> : <Ready job={job} />}
+      {job?.state === "running" ? <JobProgress job={job} /> : <Ready job={job} />}
     </Section>
-  );
-}
-
-function Running({ job }: { job: Job }) {
-  const counts = job.done < job.total;
-  return (
-    <div className={css.buttons}>
-      <span role="status">{counts ? `${capitalize(job.doing)}: ${job.done} of ${job.total}` : "Comparing all hulls…"}</span>
-      <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop looking for hulls that span parts">
-        Stop
-      </Button>
-      <progress className={css.progress} value={counts ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
-    </div>
   );
 }
 

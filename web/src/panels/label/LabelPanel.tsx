@@ -4,7 +4,7 @@ import { fillOf } from "../../pictures/hullColors";
 import { hullNamesOf } from "../../store/commonParts";
 import { confirmLabels, labelProgress, placeInWalk, walk } from "../../store/labelWalk";
 import { useProject } from "../../store/project";
-import { type SceneHull, useScenes } from "../../store/scenes";
+import { useScenes } from "../../store/scenes";
 import { sourceText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
@@ -45,13 +45,7 @@ function Walk() {
   );
 }
 
-interface InHand {
-  readonly hull: SceneHull;
-  readonly at: number;
-  readonly of: number;
-}
-
-function HullInHand({ hull, at, of }: InHand) {
+function HullInHand({ hull, at, of }: NonNullable<ReturnType<typeof useHullInHand>>) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === hull.label)?.color);
   const short = useScenes(({ scene }) => (scene ? hullNamesOf(scene)(hull.name) : hull.name));
   const sure = hull.confidence === null ? "no label" : `${hull.confidence.toFixed(2)} sure`;
@@ -77,7 +71,7 @@ function HullInHand({ hull, at, of }: InHand) {
 }
 
 /** The hull that alone is selected, where nobody gave its label. */
-function useHullInHand(): InHand | null {
+function useHullInHand() {
   const name = useWorkspace((workspace) => (workspace.selection.size === 1 ? [...workspace.selection][0] : undefined));
   const scene = useScenes((state) => state.scene);
   const cards = useProject((state) => state.cards);

@@ -29,10 +29,12 @@ export function LabelRow({ label, used, place, names, move, drag }: LabelRowProp
   const armed = useWorkspace((workspace) => workspace.brush === name);
   const remove = () => (used !== 0 ? setState("asked") : removeLabel(names, name));
   const onKeyDown = (event: KeyboardEvent) => {
-    const act = keyAction(event, place, move, () => setState("renamed"), remove);
-    if (!act) return;
+    if (event.key === "F2") setState("renamed");
+    else if (event.key === "Delete" || event.key === "Backspace") remove();
+    else if (event.altKey && event.key === "ArrowUp") move(place - 1);
+    else if (event.altKey && event.key === "ArrowDown") move(place + 1);
+    else return;
     event.preventDefault();
-    act();
   };
   if (state === "renamed") return <Rename label={label} onDone={() => setState("shown")} />;
   return (
@@ -74,21 +76,6 @@ function removeLabel(names: readonly string[], name: string): void {
   void perform({ kind: "vocabulary", labels: names.filter((other) => other !== name) });
 }
 
-/** What a key does to a row that has the focus. */
-function keyAction(
-  event: KeyboardEvent,
-  place: number,
-  move: (to: number) => void,
-  rename: () => void,
-  remove: () => void,
-) {
-  if (event.key === "F2") return rename;
-  if (event.key === "Delete" || event.key === "Backspace") return remove;
-  if (event.altKey && event.key === "ArrowUp") return () => move(place - 1);
-  if (event.altKey && event.key === "ArrowDown") return () => move(place + 1);
-  return null;
-}
-
 /** A label while its name is changed, in its place in the list. */
 function Rename({ label: { name, color }, onDone }: { label: VocabularyLabel; onDone: () => void }) {
   const [text, setText] = useState(name);
@@ -127,17 +114,7 @@ const inUseText = (used: number): string =>
     : `${countText(used, "hull")} ${used === 1 ? "has" : "have"} it; give ${used === 1 ? "it" : "them"} another label first.`;
 
 /** Why a label cannot be removed, and a way to the hulls that have it. */
-function InUse({
-  name,
-  used,
-  place,
-  onClose,
-}: {
-  name: string;
-  used: number | null;
-  place: number;
-  onClose: () => void;
-}) {
+function InUse({ name, used, place, onClose }: Pick<LabelRowProps, "used" | "place"> & { name: string; onClose: () => void }) {
   useEffect(() => () => conceal(name), [name]);
   return (
     <div className={css.inUse} role="status">
@@ -147,10 +124,7 @@ function InUse({
           <Button look="quiet" onClick={() => reveal(name, place)}>
             Show them
           </Button>
-          <Button
-            look="quiet"
-            onClick={onClose}
-          >
+          <Button look="quiet" onClick={onClose}>
             Close
           </Button>
         </div>

@@ -18,6 +18,7 @@ export function Vocabulary() {
   const vocabulary = useProject((state) => state.project.vocabulary);
   const cards = useProject((state) => state.cards);
   const counts = useMemo(() => countLabels(cards), [cards]);
+  const some = useWorkspace((workspace) => workspace.selection.size > 0);
   const names = vocabulary.map((label) => label.name);
   const classes = vocabulary.filter((label) => label.is_class).map((label) => label.name);
   const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moveItem(names, from, to) });
@@ -25,7 +26,7 @@ export function Vocabulary() {
   const list = useRef<HTMLUListElement>(null);
   useCalled("vocabulary", () => (list.current?.querySelector("button") ?? list.current?.parentElement?.querySelector("input"))?.focus());
   return (
-    <Section title="Labels" aside={vocabulary.length > 0 && <Hint />}>
+    <Section title="Labels" aside={vocabulary.length > 0 && <span className={css.hint}>{some ? "a click labels the selection" : "a click paints, Shift+click selects"}</span>}>
       {vocabulary.length === 0 && (
         <Note>No names are needed to begin: show the steps on one asset (2), and name its parts later, or now.</Note>
       )}
@@ -48,13 +49,6 @@ export function Vocabulary() {
       </ul>
       <AddLabels names={names} />
     </Section>
-  );
-}
-
-function Hint() {
-  const some = useWorkspace((workspace) => workspace.selection.size > 0);
-  return (
-    <span className={css.hint}>{some ? "a click labels the selection" : "a click paints, Shift+click selects"}</span>
   );
 }
 

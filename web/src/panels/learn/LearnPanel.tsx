@@ -29,22 +29,17 @@ import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
   const outcome = useProject((state) => state.outcome);
+  const asset = useWorkspace((workspace) => workspace.asset);
   return (
     <>
       <LearnHead />
       <Questions />
       {outcome && <NoProgram outcome={outcome} />}
-      <OpenDoubts />
+      {asset !== null && <Doubts asset={asset} />}
       <ProgramSection />
       <AnswerList />
     </>
   );
-}
-
-/** Why the edit of the open asset may be wrong. */
-function OpenDoubts() {
-  const asset = useWorkspace((workspace) => workspace.asset);
-  return asset === null ? null : <Doubts asset={asset} />;
 }
 
 /** The button that learns, and how learning stands in words. */

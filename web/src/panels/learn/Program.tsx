@@ -38,12 +38,13 @@ export function ProgramSection() {
 function ProgramNotes() {
   const program = useProject((state) => state.program);
   const problem = useProject((state) => state.project.problem);
+  const learning = useProject((state) => state.learning);
   return (
     <div className={css.notes}>
       {program.error && <Note mood="bad">The program cannot be read: {program.error}</Note>}
       {problem && problem !== program.error && <Note mood="bad">{problem}</Note>}
       {program.by_hand && program.text !== "" && <HandWritten />}
-      {program.outdated && !program.by_hand && <Outdated />}
+      {program.outdated && !program.by_hand && !learning && <Note mood="warn">Out of date: the demonstrations changed, and no new program is learned yet.</Note>}
       <LostResults />
       <Failures />
     </div>
@@ -69,12 +70,6 @@ function HandWritten() {
       </div>
     </Note>
   );
-}
-
-function Outdated() {
-  const learning = useProject((state) => state.learning);
-  if (learning) return null;
-  return <Note mood="warn">Out of date: the demonstrations changed, and no new program is learned yet.</Note>;
 }
 
 /** Where the program does not run. */

@@ -1,6 +1,6 @@
 // The program as a text to edit, checked while one types.
 import { Check } from "lucide-react";
-import { type KeyboardEvent, useEffect, useState } from "react";
+import { type KeyboardEvent, useState } from "react";
 import { writeProgram } from "../../commands/learn";
 import { api } from "../../server/api";
 import { ServerProblem } from "../../server/http";
@@ -9,13 +9,14 @@ import { ProgramText } from "../../text/ProgramText";
 import type { ProgramCheck } from "../../wire";
 import { Button } from "../../ui/Button";
 import { Note } from "../../ui/Section";
+import { useAnswer } from "../../ui/useAnswer";
 import css from "./learn.module.css";
 
 export function ProgramEditor({ onClose }: { onClose: () => void }) {
   const [begun] = useState(() => useProject.getState().program);
   const [text, setText] = useState(begun.text);
   const elsewhere = useProject((state) => state.program.version !== begun.version);
-  const check = useCheck(text);
+  const check = useAnswer(text, (stop) => checkText(text, stop), 200);
   const mark = check?.mark ?? null;
   const changed = text !== begun.text;
   const save = async () => {
@@ -23,7 +24,7 @@ export function ProgramEditor({ onClose }: { onClose: () => void }) {
   };
   return (
     <div className={css.editor} onKeyDown={(event) => keys(event, () => void save(), onClose)}>
-      <ProgramText text={text} onChange={setText} marks={mark ? [mark] : []} readOnly={false} />
+      <ProgramText text={text} onChange={setText} marks={mark ? [mark] : []} />
       {mark && (
         <Note mood="bad">
           Line {mark.line}, column {mark.column}: {mark.message}
@@ -61,22 +62,13 @@ function Sentences({ check }: { check: ProgramCheck }) {
   );
 }
 
-/** What the server says of a text, a moment after the last change; the answer before stays until then. */
-function useCheck(text: string): ProgramCheck | null {
-  const [check, setCheck] = useState<ProgramCheck | null>(null);
-  useEffect(() => {
-    const stop = new AbortController();
-    const timer = setTimeout(() => {
-      api.checkProgram(text, stop.signal).then(setCheck, (error: unknown) => {
-        if (error instanceof ServerProblem) setCheck({ mark: { line: 1, column: 1, message: error.problem.message }, rules: [], orient_sentence: "" });
-      });
-    }, 200);
-    return () => {
-      clearTimeout(timer);
-      stop.abort();
-    };
-  }, [text]);
-  return check;
+async function checkText(text: string, stop: AbortSignal): Promise<ProgramCheck> {
+  try {
+    return await api.checkProgram(text, stop);
+  } catch (error) {
+    if (!(error instanceof ServerProblem)) throw error;
+    return { mark: { line: 1, column: 1, message: error.problem.message }, rules: [], orient_sentence: "" };
+  }
 }
 
 function keys(event: KeyboardEvent, save: () => void, close: () => void): void {

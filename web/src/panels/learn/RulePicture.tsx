@@ -32,9 +32,8 @@ export function HullsPicture({ picture, hulls, label }: {
   return <IdPicture png={picture.png} label={label} colors={colors} fill={fill} className={css.picture ?? ""} />;
 }
 
-export interface RulePictureView {
-  readonly names: readonly string[];
-  readonly png: Blob;
+type RulePicture = Awaited<ReturnType<typeof api.picture>>;
+export interface RulePictureView extends RulePicture {
   /** Names of the hulls that are in sight in it. */
   readonly inSight: ReadonlySet<string>;
 }
@@ -64,11 +63,6 @@ async function fetchView(asset: string, rule: number, version: string, show: rea
     pixels[hull] = (pixels[hull] ?? 0) + 1;
   }
   return { names, png, inSight: new Set(names.filter((_, k) => (pixels[k] ?? 0) >= ENOUGH)) };
-}
-
-interface RulePicture {
-  readonly names: readonly string[];
-  readonly png: Blob;
 }
 
 const MOST = 24;

@@ -57,14 +57,12 @@ function ResultPictures({ asset, drawn }: { asset: string; drawn: boolean }) {
     <>
       {made && (
         <div className={css.beforeAfter}>
-          <figure>
-            <Thumbnail asset={asset} of="source" label={`${asset} before`} />
-            <figcaption>before</figcaption>
-          </figure>
-          <figure>
-            <Thumbnail asset={asset} of="output" label={`${asset} after`} />
-            <figcaption>after</figcaption>
-          </figure>
+          {(["before", "after"] as const).map((when) => (
+            <figure key={when}>
+              <Thumbnail asset={asset} of={when === "before" ? "source" : "output"} label={`${asset} ${when}`} />
+              <figcaption>{when}</figcaption>
+            </figure>
+          ))}
         </div>
       )}
       {alarms.map(({ text }) => (

@@ -3,15 +3,17 @@ import { Check, RotateCw, SkipForward, Undo2, X } from "lucide-react";
 import { useState } from "react";
 import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
+import { ServerProblem } from "../../server/http";
 import { failingGoals } from "../../store/goals";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
 import { isWritten, staleText } from "../../store/reviews";
 import { errorParts, shortName } from "../../store/words";
+import type { Scene } from "../../store/scene";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { Note, Section } from "../../ui/Section";
+import { Note, ProblemNote, Section } from "../../ui/Section";
 import type { Card } from "../../wire";
 import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
@@ -28,8 +30,7 @@ export function AssetReview() {
 }
 
 function OneAsset({ asset }: { asset: string }) {
-  const of = useResultKind(asset);
-  const result = useResult(asset, of);
+  const result = useResult(asset, useResultKind(asset));
   const hasError = useProject((state) => state.cards[asset]?.error != null);
   const correcting = useWorkspace((state) => state.draft !== null);
   return (
@@ -39,23 +40,25 @@ function OneAsset({ asset }: { asset: string }) {
       <Remarks asset={asset} />
       <GoalsOfAsset asset={asset} />
       <Doubts asset={asset} />
-      {result.kind === "problem" && !hasError && (
+      {result instanceof ServerProblem && !hasError && (
         <Section title="Result">
-          <Note mood="bad">
-            {result.problem.message}
-            {result.problem.remedy && <p className={css.remedy}>{result.problem.remedy}</p>}
-          </Note>
+          <ProblemNote {...result.problem} />
         </Section>
       )}
-      {result.kind === "there" && result.scene.edit && (
-        <>
-          <NumbersTable asset={asset} before={result.scene.view.hulls} edit={result.scene.edit} />
-          <Findings edit={result.scene.edit} />
-          <Checks asset={asset} />
-          <Trace asset={asset} of={result.of} edit={result.scene.edit} />
-        </>
-      )}
+      {result && !(result instanceof ServerProblem) && <Details asset={asset} scene={result} />}
       {!correcting && <Corrections asset={asset} />}
+    </>
+  );
+}
+
+function Details({ asset, scene: { view, edit, showing } }: { asset: string; scene: Scene }) {
+  if (!edit || showing.kind !== "result") return null;
+  return (
+    <>
+      <NumbersTable asset={asset} before={view.hulls} edit={edit} />
+      <Findings edit={edit} />
+      <Checks asset={asset} />
+      <Trace asset={asset} of={showing.of} edit={edit} />
     </>
   );
 }
@@ -143,7 +146,7 @@ function Remarks({ asset }: { asset: string }) {
   if (!card || (!card.error && !card.stale.length && !card.flags.length)) return null;
   return (
     <div className={css.remarks}>
-      {card.error && <Failure error={card.error} asset={asset} />}
+      {card.error && <ProblemNote {...errorParts(card.error, asset)} />}
       {card.stale.length > 0 && <Stale asset={asset} reasons={card.stale} />}
       {card.flags.map((flag) => (
         <Note key={flag} mood="warn">
@@ -151,16 +154,6 @@ function Remarks({ asset }: { asset: string }) {
         </Note>
       ))}
     </div>
-  );
-}
-
-function Failure({ error, asset }: { error: string; asset: string }) {
-  const { message, remedy } = errorParts(error, asset);
-  return (
-    <Note mood="bad">
-      {message}
-      {remedy && <p className={css.remedy}>{remedy}</p>}
-    </Note>
   );
 }
 

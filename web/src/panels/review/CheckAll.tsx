@@ -6,7 +6,7 @@ import { useProject } from "../../store/project";
 import { setFilters, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Note } from "../../ui/Section";
-import { JobLines, JobProgress } from "./JobProgress";
+import { JobLines, JobProgress } from "../../ui/JobProgress";
 
 export function CheckAll() {
   const job = useJob("check");

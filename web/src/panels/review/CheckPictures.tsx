@@ -3,20 +3,18 @@ import { LoaderCircle, X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { useEffect, useState } from "react";
 import { api } from "../../server/api";
-import { getBlob, ServerProblem } from "../../server/http";
+import { getBlob, problemOf, ServerProblem } from "../../server/http";
 import { type Part, showPictures, useShowsPictures } from "../../store/checks";
-import { reportError } from "../../store/toasts";
-import { type LengthUnit, textIn } from "../../store/units";
+import { textIn } from "../../store/units";
 import { toSentence } from "../../store/words";
 import { useUnit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { Note } from "../../ui/Section";
-import type { CheckPicture, Problem } from "../../wire";
+import { useAnswer } from "../../ui/useAnswer";
 import css from "./checks.module.css";
 
 interface PartId {
   asset: string;
-  version: string;
   part: Part;
 }
 
@@ -32,21 +30,22 @@ export function CheckPictures(of: PartId) {
   );
 }
 
-type PicturesState = { kind: "coming" } | { kind: "there"; pictures: readonly CheckPicture[] } | { kind: "problem"; problem: Problem };
+export function Coming({ what }: { what: string }) {
+  return (
+    <p className={css.coming} role="status">
+      <LoaderCircle size={14} aria-hidden className={css.spinning} /> {what}
+    </p>
+  );
+}
 
-function Pictures({ asset, version, part }: PartId) {
+/** Drawn anew when the unit changes; the drawing stops when nobody looks any more. */
+function Pictures({ asset, part }: PartId) {
   const unit = useUnit();
-  const drawn = usePictures(asset, version, part, unit);
-  if (drawn.kind === "problem") return <Note mood="bad">{drawn.problem.message}</Note>;
-  if (drawn.kind === "coming") {
-    return (
-      <p className={css.coming} role="status">
-        <LoaderCircle size={14} aria-hidden className={css.spinning} /> drawing
-      </p>
-    );
-  }
-  if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to draw.</p>;
-  return drawn.pictures.map(({ text, source }) => {
+  const drawn = useAnswer(`${asset} ${part} ${unit}`, (stop) => api.checkPictures(asset, part, unit, stop).catch(problemOf));
+  if (drawn instanceof ServerProblem) return <Note mood="bad">{drawn.problem.message}</Note>;
+  if (!drawn) return <Coming what="drawing" />;
+  if (!drawn.length) return <p className={css.dim}>There is nothing to draw.</p>;
+  return drawn.map(({ text, source }) => {
     const words = toSentence(textIn(text, unit));
     return (
       <figure key={text}>
@@ -55,24 +54,6 @@ function Pictures({ asset, version, part }: PartId) {
       </figure>
     );
   });
-}
-
-/** The pictures, drawn anew when the output or the unit changes; the drawing stops when nobody looks any more. */
-function usePictures(asset: string, version: string, part: Part, unit: LengthUnit): PicturesState {
-  const [drawn, setDrawn] = useState<PicturesState>({ kind: "coming" });
-  useEffect(() => {
-    const stop = new AbortController();
-    api.checkPictures(asset, part, unit, stop.signal).then(
-      (pictures) => setDrawn({ kind: "there", pictures }),
-      (error: unknown) => {
-        if (stop.signal.aborted) return;
-        if (error instanceof ServerProblem) setDrawn({ kind: "problem", problem: error.problem });
-        else throw error;
-      },
-    );
-    return () => stop.abort();
-  }, [asset, version, part, unit]);
-  return drawn;
 }
 
 /** Not the button in it, whose hint would take the first Escape. */
@@ -89,9 +70,9 @@ function useFetched(source: string): string | undefined {
     if (isWhole) return;
     let made: string | undefined;
     let wanted = true;
-    getBlob(source).then((picture) => {
+    void getBlob(source).then((picture) => {
       if (wanted) setShown((made = URL.createObjectURL(picture)));
-    }, reportError);
+    });
     return () => {
       wanted = false;
       if (made !== undefined) URL.revokeObjectURL(made);

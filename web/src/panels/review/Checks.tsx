@@ -1,5 +1,5 @@
 // What is measured of the written output beside the asset: fit, clearance, rest, and the limits of an engine.
-import { ChevronDown, ChevronRight, LoaderCircle, RotateCw } from "lucide-react";
+import { ChevronDown, ChevronRight, RotateCw } from "lucide-react";
 import { useEffect } from "react";
 import {
   concerns,
@@ -19,13 +19,13 @@ import { countText, toSentence } from "../../store/words";
 import { setChecks, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
 import { choiceLines, Menu } from "../../ui/Menu";
-import { Note } from "../../ui/Section";
+import { ProblemNote } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
-import type { CheckResult, Figure, Problem } from "../../wire";
+import type { CheckResult } from "../../wire";
 import { CheckFindings } from "./CheckFindings";
-import { CheckPictures } from "./CheckPictures";
+import { CheckPictures, Coming } from "./CheckPictures";
 import css from "./checks.module.css";
-import review from "./review.module.css";
+import { FigureTable } from "./FigureTable";
 
 export function Checks({ asset }: { asset: string }) {
   const version = useProject((state) => state.cards[asset]?.check ?? null);
@@ -100,45 +100,36 @@ function CheckPart({ asset, version, part }: PartProps) {
       <h4>
         {TITLES[part]} {part === "engines" && <EngineMenu />}
       </h4>
-      {(!measured || measured.kind === "coming") && <Waiting begun={measured !== undefined} />}
-      {measured?.kind === "problem" && <Failed problem={measured.problem} onAgain={() => retryPart(asset, version, part)} />}
-      {measured?.kind === "there" && <PartResult asset={asset} version={version} checked={measured.checked} />}
+      {!measured && <p className={css.dim}>…</p>}
+      {measured?.kind === "coming" && <Coming what="measuring" />}
+      {measured?.kind === "problem" && (
+        <ProblemNote {...measured.problem}>
+          <div className={css.again}>
+            <Button icon={RotateCw} onClick={() => retryPart(asset, version, part)}>
+              Try again
+            </Button>
+          </div>
+        </ProblemNote>
+      )}
+      {measured?.kind === "there" && <PartResult asset={asset} checked={measured.checked} />}
     </section>
   );
 }
 
-function Waiting({ begun }: { begun: boolean }) {
-  if (!begun) return <p className={css.dim}>…</p>;
-  return (
-    <p className={css.coming} role="status">
-      <LoaderCircle size={14} aria-hidden className={css.spinning} /> measuring
-    </p>
-  );
-}
-
-function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void }) {
-  return (
-    <Note mood="bad">
-      {problem.message}
-      {problem.remedy && <p>{problem.remedy}</p>}
-      <div className={css.again}>
-        <Button icon={RotateCw} onClick={onAgain}>
-          Try again
-        </Button>
-      </div>
-    </Note>
-  );
-}
-
-function PartResult({ asset, version, checked }: { asset: string; version: string; checked: CheckResult }) {
+function PartResult({ asset, checked }: { asset: string; checked: CheckResult }) {
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const units = useUnit();
+  const rows = figures.map(({ what, unit, before, after }) => ({
+    what,
+    before: before === null ? "" : figureText(before, unit, units),
+    after: figureText(after, unit, units),
+  }));
   // what is not legal has a section of its own
   const shown = part === "engines" ? findings.filter((one) => one.engine !== null && concerns(one, engine)) : findings;
   return (
     <>
-      {figures.length > 0 && <FigureTable figures={figures} />}
+      {rows.length > 0 && <FigureTable rows={rows} />}
       {notes.map((note) => (
         <p key={note} className={css.dim}>
           {toSentence(textIn(note, units))}
@@ -147,7 +138,7 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
       <CheckFindings asset={asset} findings={shown} />
       {part === "engines" && engine !== "" && !shown.length && <p className={css.good}>✓ Within all of them.</p>}
       {gone > 0 && <p className={css.good}>✓ {countText(gone, "finding")} of the original asset {gone === 1 ? "is" : "are"} gone.</p>}
-      {pictured && <CheckPictures asset={asset} version={version} part={part} />}
+      {pictured && <CheckPictures asset={asset} part={part} />}
       {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m", units)}: smaller details are missed.</p>}
     </>
   );
@@ -168,30 +159,5 @@ function EngineMenu() {
       }
       lines={choiceLines<string>({ "": "No engine", ...engines }, engine, (name) => setChecks({ engine: name }))}
     />
-  );
-}
-
-/** Figures before and after an edit. */
-function FigureTable({ figures }: { figures: readonly Figure[] }) {
-  const units = useUnit();
-  return (
-    <table className={review.numbers}>
-      <thead>
-        <tr>
-          <td />
-          <th scope="col">Before</th>
-          <th scope="col">After</th>
-        </tr>
-      </thead>
-      <tbody>
-        {figures.map(({ what, unit, before, after }) => (
-          <tr key={what}>
-            <th scope="row">{what}</th>
-            <td>{before === null ? "" : figureText(before, unit, units)}</td>
-            <td>{figureText(after, unit, units)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
   );
 }

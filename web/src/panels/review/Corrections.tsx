@@ -1,6 +1,6 @@
 // Where the result is not right: edits by hand, going back to what the program makes, or demonstrating this asset.
 import { GraduationCap, Hand, RotateCcw } from "lucide-react";
-import { useEffect, useState } from "react";
+import { useEffect } from "react";
 import { demonstrate } from "../../commands/learn";
 import { dropCorrections, showPresent, startCorrection } from "../../commands/review";
 import { DraftForm } from "../demonstrate/DraftForm";
@@ -11,6 +11,7 @@ import { countText, listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
+import { useAnswer } from "../../ui/useAnswer";
 import type { ManualEditView } from "../../wire";
 import css from "./review.module.css";
 
@@ -76,19 +77,8 @@ function toView(form: HTMLElement | null): void {
 
 const NONE: readonly ManualEditView[] = [];
 
-/** The edits by hand of an asset, also where its result fails. */
+/** The edits by hand of an asset, also where its result fails. The viewport reports one that cannot be read. */
 function useCorrections(asset: string): readonly ManualEditView[] {
   const revision = useProject((state) => state.revisions[asset] ?? 0);
-  const [got, setGot] = useState<{ asset: string; corrections: readonly ManualEditView[] } | null>(null);
-  useEffect(() => {
-    let wanted = true;
-    getDetails(asset).then(
-      ({ view }) => wanted && setGot({ asset, corrections: view.manual_edits }),
-      () => undefined, // the viewport reports an asset that cannot be read
-    );
-    return () => {
-      wanted = false;
-    };
-  }, [asset, revision]);
-  return got?.asset === asset ? got.corrections : NONE;
+  return useAnswer(`${asset} ${revision}`, () => getDetails(asset).catch(() => null))?.view.manual_edits ?? NONE;
 }

@@ -5,14 +5,13 @@ import { openGoals } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countExportable } from "../../store/reviews";
-import { notify, reportError } from "../../store/toasts";
+import { notify } from "../../store/toasts";
 import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
 import { useCalled } from "../../ui/useCalled";
-import type { Job } from "../../wire";
-import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import css from "./review.module.css";
 
 type What = "signed" | "all";
@@ -25,7 +24,13 @@ export function ExportSection() {
       <Section title="Export">
         {running ? <JobProgress job={job} unit="asset" /> : <Form />}
       </Section>
-      {job && !running && <Outcome job={job} />}
+      {job && !running && (
+        <Section title="The last export">
+          <JobNote job={job} />
+          {job.out && <Where folder={job.out} />}
+          <JobLines lines={job.lines} />
+        </Section>
+      )}
     </>
   );
 }
@@ -73,18 +78,8 @@ function Form() {
   );
 }
 
-function Outcome({ job }: { job: Job }) {
-  return (
-    <Section title="The last export">
-      <JobNote job={job} />
-      {job.out && <Where folder={job.out} />}
-      <JobLines lines={job.lines} />
-    </Section>
-  );
-}
-
 function Where({ folder }: { folder: string }) {
-  const copy = () => navigator.clipboard.writeText(folder).then(() => notify("Path copied"), reportError);
+  const copy = () => navigator.clipboard.writeText(folder).then(() => notify("Path copied"));
   return (
     <div className={css.where}>
       <code>{folder}</code>

@@ -1,22 +1,22 @@
 // The form of a goal: which one, on what, with which options; tried on all assets before it is kept.
 import { Check, Play } from "lucide-react";
-import { useCallback, useEffect, useMemo, useState } from "react";
+import { useCallback, useEffect, useMemo } from "react";
 import { api } from "../../server/api";
 import { perform } from "../../store/edits";
 import { changeGoal, dropGoal, freeName, type GoalDraft } from "../../store/goals";
 import { tryGoal, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
-import { reportError } from "../../store/toasts";
 import { countText } from "../../store/words";
 import { setHighlight, useWorkspace, visit } from "../../store/workspace";
 import { useFetched } from "../../pictures/useFetched";
 import { Button } from "../../ui/Button";
+import { useAnswer } from "../../ui/useAnswer";
 import { whilePointed } from "../../ui/whilePointed";
-import type { Argument, ExtractorSuggestion, GoalCall, GoalView, Job, Operator } from "../../wire";
+import type { Argument, ExtractorSuggestion, GoalCall, Job, Operator } from "../../wire";
 import { Field } from "../demonstrate/ArgumentField";
 import { EnlargeablePicture } from "./CheckPictures";
 import css from "./goals.module.css";
-import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import review from "./review.module.css";
 
 export function GoalForm({ draft }: { draft: GoalDraft }) {
@@ -24,7 +24,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
   const forms = useProject((state) => state.language.goals);
   const goals = useProject((state) => state.project.goals);
   const form = forms.find((one) => one.name === call.name);
-  const check = useCheck(call);
+  const check = useAnswer(call, (stop) => api.checkGoal(call, stop), 120);
   const suggested = useSuggestions();
   const proposal = freeName(check?.name || call.name, goals, was);
   const job = useJob("goal");
@@ -47,7 +47,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
       aria-label={was === null ? "A new goal" : `Change ${was}`}
       onSubmit={(event) => {
         event.preventDefault();
-        keep().catch(reportError);
+        void keep();
       }}
     >
       <div className={css.kinds} role="group" aria-label="Goal">
@@ -75,7 +75,7 @@ export function GoalForm({ draft }: { draft: GoalDraft }) {
       </Field>
       {mine && <Outcome job={mine} />}
       <div className={[review.row, css.ending].join(" ")}>
-        <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => void doWith(tryGoal).catch(reportError)}>
+        <Button icon={Play} disabled={!ready || job?.state === "running"} tip="Tries it on all assets, before and after the program" onClick={() => void doWith(tryGoal)}>
           Try it
         </Button>
         <Button type="submit" look="primary" icon={Check} disabled={!ready || !(name ?? proposal).trim()}>
@@ -103,21 +103,6 @@ function showSource(): void {
 function callOf({ name, arguments: [first] }: Operator, { arguments: given }: GoalCall): GoalCall {
   const [about] = Object.values(given);
   return { name, arguments: first && about ? { [first.name]: about } : {} };
-}
-
-/** What a form comes to, a moment after the last key; what it came to before stays until then. */
-function useCheck(call: GoalCall): GoalView | null {
-  const [check, setCheck] = useState<GoalView | null>(null);
-  useEffect(() => {
-    const stop = new AbortController();
-    const ask = () => api.checkGoal(call, stop.signal).then(setCheck, (error: unknown) => stop.signal.aborted || reportError(error));
-    const timer = setTimeout(() => void ask(), 120);
-    return () => {
-      clearTimeout(timer);
-      stop.abort();
-    };
-  }, [call]);
-  return check;
 }
 
 interface GoalFieldProps {

@@ -1,8 +1,7 @@
 // What an edited asset comes to: numbers before and after, what the check of legality says, and what each rule did.
 import { CircleAlert, CircleCheck, Info, TriangleAlert } from "lucide-react";
-import { useEffect, useState } from "react";
 import { RuleText } from "../learn/RuleText";
-import { ServerProblem } from "../../server/http";
+import { problemOf, type ServerProblem } from "../../server/http";
 import { highlightOfRule } from "../../store/highlight";
 import { useProject } from "../../store/project";
 import { alarmsOf, numbersOf, verdictOf } from "../../store/reviews";
@@ -11,60 +10,43 @@ import { textIn, volumeText } from "../../store/units";
 import { changeText, countText, listText } from "../../store/words";
 import { hover, select, setHighlight, useUnit, useWorkspace } from "../../store/workspace";
 import { Section } from "../../ui/Section";
-import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
+import type { EditHeader, FindingView, HullView, TraceLine } from "../../wire";
+import { useAnswer } from "../../ui/useAnswer";
 import { whilePointed } from "../../ui/whilePointed";
+import { FigureTable } from "./FigureTable";
 import css from "./review.module.css";
 
 export function NumbersTable({ asset, before, edit }: { asset: string; before: readonly HullView[]; edit: EditHeader }) {
   const unit = useUnit();
   const numbers = numbersOf(before, edit);
-  const row = useProject((state) => state.confidence[asset]);
-  const alarms = alarmsOf(row);
-  const whole = (value: number) => value.toLocaleString("en-GB");
+  const alarms = alarmsOf(useProject((state) => state.confidence[asset]));
+  const row = (what: string, [before, after]: readonly [number, number], text = wholeText, alarm: string | null = null) => ({
+    what,
+    before: text(before),
+    after: text(after),
+    change: (
+      <>
+        {alarm !== null && <TriangleAlert size={13} aria-label={`Alarm: ${alarm}:`} />}
+        {changeText(before, after) ?? "–"}
+      </>
+    ),
+    alarm,
+  });
+  const rows = [
+    row("Hulls", numbers.hulls, wholeText, alarms.hulls),
+    row("Vertices", numbers.vertices),
+    row("Faces", numbers.faces),
+    row("Volume", numbers.volume, (volume) => volumeText(volume, unit), alarms.volume),
+  ];
   return (
     <Section title="Numbers" aside={`${edit.made.length} made, ${edit.removed.length} removed`}>
-      <table className={css.numbers}>
-        <thead>
-          <tr>
-            <td />
-            <th scope="col">Before</th>
-            <th scope="col">After</th>
-            <th scope="col">Change</th>
-          </tr>
-        </thead>
-        <tbody>
-          <NumbersRow what="Hulls" pair={numbers.hulls} alarm={alarms.hulls} text={whole} />
-          <NumbersRow what="Vertices" pair={numbers.vertices} text={whole} />
-          <NumbersRow what="Faces" pair={numbers.faces} text={whole} />
-          <NumbersRow what="Volume" pair={numbers.volume} alarm={alarms.volume} text={(volume) => volumeText(volume, unit)} />
-        </tbody>
-      </table>
+      <FigureTable rows={rows} changes />
       {edit.note && <p className={css.dim}>{edit.note}</p>}
     </Section>
   );
 }
 
-interface NumbersRowProps {
-  what: string;
-  pair: readonly [number, number];
-  /** Why the change stands out. */
-  alarm?: string | null;
-  text: (value: number) => string;
-}
-
-function NumbersRow({ what, pair: [before, after], alarm = null, text }: NumbersRowProps) {
-  return (
-    <tr>
-      <th scope="row">{what}</th>
-      <td>{text(before)}</td>
-      <td>{text(after)}</td>
-      <td data-alarm={alarm !== null || undefined} title={alarm ?? undefined}>
-        {alarm !== null && <TriangleAlert size={13} aria-label={`Alarm: ${alarm}:`} />}
-        {changeText(before, after) ?? "–"}
-      </td>
-    </tr>
-  );
-}
+const wholeText = (value: number): string => value.toLocaleString("en-GB");
 
 const ICONS = { error: CircleAlert, warning: TriangleAlert, note: Info } as const;
 const NAMES = { error: "Error", warning: "Warning", note: "Note" } as const;
@@ -166,7 +148,6 @@ function effectText({ selected, made }: TraceLine): string {
 }
 
 type ResultKind = "program" | "output";
-type Result = { kind: "coming" } | { kind: "there"; of: ResultKind; scene: Scene } | { kind: "problem"; problem: Problem };
 
 /** Which result of an asset is looked at: the one that is shown; else the written one, if there is one. */
 export function useResultKind(asset: string): ResultKind {
@@ -176,28 +157,12 @@ export function useResultKind(asset: string): ResultKind {
   return written ? "output" : "program";
 }
 
-export function useResult(asset: string, of: ResultKind): Result {
+/** The result of an asset, or why there is none; null while it comes, and without a program. The one before stays till then. */
+export function useResult(asset: string, of: ResultKind): Scene | ServerProblem | null {
   const state = useProject((now) =>
     [now.revisions[asset], now.shapeRevisions[asset], now.program.version, now.cards[asset]?.edited_picture].join(" "),
   );
   const empty = useProject((now) => of === "program" && !now.program.text.trim());
-  const key = `${asset} ${of} ${state}`;
-  const [got, setGot] = useState<{ asset: string; key: string; result: Result } | null>(null);
-  useEffect(() => {
-    if (empty) return;
-    let wanted = true;
-    const take = (result: Result) => wanted && setGot({ asset, key, result });
-    sceneOf(asset, { kind: "result", of }).then(
-      (scene) => take({ kind: "there", of, scene }),
-      (error: unknown) => {
-        if (error instanceof ServerProblem) take({ kind: "problem", problem: error.problem });
-        else throw error;
-      },
-    );
-    return () => {
-      wanted = false;
-    };
-  }, [asset, of, key, empty]);
-  // the result before stays while the next of the same asset comes, so that nothing flickers
-  return got?.asset === asset && !empty ? got.result : { kind: "coming" };
+  const found = useAnswer(`${asset} ${of} ${state} ${empty}`, async () => (empty ? null : sceneOf(asset, { kind: "result", of }).catch(problemOf)));
+  return empty ? null : found;
 }

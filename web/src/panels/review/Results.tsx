@@ -72,21 +72,17 @@ function List({ lines, onOpen }: { lines: readonly Line[]; onOpen: () => void })
           const line = lines[index];
           return (
             <div key={key} role="listitem" data-index={index} ref={rows.measureElement} className={css.place} style={{ transform: `translateY(${start}px)` }}>
-              {line?.kind === "head" && <Head line={line} />}
+              {line?.kind === "head" && (
+                <h3 className={css.groupHead}>
+                  {HEADS[line.group]} <span className={css.dim}>{line.count}</span>
+                </h3>
+              )}
               {line?.kind === "card" && <ResultRow card={line.card} onOpen={onOpen} />}
             </div>
           );
         })}
       </div>
     </div>
-  );
-}
-
-function Head({ line }: { line: Line & { kind: "head" } }) {
-  return (
-    <h3 className={css.groupHead}>
-      {HEADS[line.group]} <span className={css.dim}>{line.count}</span>
-    </h3>
   );
 }
 
@@ -152,23 +148,21 @@ const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen
 
 /** The most pressing thing to say of a result. */
 function StateLine({ card }: { card: Card }) {
-  if (card.output === "failed" || card.error) return <FailureLine card={card} />;
+  if (card.output === "failed" || card.error) {
+    const { message, remedy } = errorParts(card.error ?? "failed", card.asset);
+    return (
+      <>
+        <span className={css.bad}>✗ {message}</span>
+        {remedy && <span className={css.dim}>{remedy}</span>}
+      </>
+    );
+  }
   if (card.stale.length) return <span className={css.warn}>not up to date: {staleText(card.stale)}</span>;
   if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
   if (card.review === "wrong") return <span className={css.warn}>✗ {card.note ?? "wrong"}</span>;
   const [flag] = flagsOf(card);
   if (flag) return <span className={css.warn}>⚑ {flag}</span>;
   return card.review === "accepted" ? <span className={css.good}>✓ accepted</span> : null;
-}
-
-function FailureLine({ card }: { card: Card }) {
-  const { message, remedy } = errorParts(card.error ?? "failed", card.asset);
-  return (
-    <>
-      <span className={css.bad}>✗ {message}</span>
-      {remedy && <span className={css.dim}>{remedy}</span>}
-    </>
-  );
 }
 
 /** What the checks found, where they were made. */

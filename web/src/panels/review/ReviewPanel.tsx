@@ -18,7 +18,7 @@ import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
 import { Goals } from "./Goals";
-import { JobLines, JobNote, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import { Results } from "./Results";
 import css from "./review.module.css";
 

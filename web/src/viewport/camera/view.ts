@@ -35,7 +35,8 @@ export class CameraView {
   explode = 0;
   /** Whether all is shown as `fit` has placed it: the person did not come nearer or go elsewhere since. */
   fitsAll = false;
-  private glide: CameraMove | null = null;
+  /** A short smooth move from one pose to another [s]. */
+  private glide: { from: Pose; to: Pose; began: number } | null = null;
   private readonly cameras = new Cameras();
   private placed: { key: string; camera: PerspectiveCamera | OrthographicCamera } | null = null;
 
@@ -52,10 +53,11 @@ export class CameraView {
   /** Moves on; whether a move is still under way. */
   advance(now: number): boolean {
     if (!this.glide) return false;
-    const { pose, done } = this.glide.at(now);
-    this.pose = pose;
-    if (done) this.glide = null;
-    return !done;
+    const { from, to, began } = this.glide;
+    const share = Math.min(1, (now - began) / SECONDS);
+    this.pose = share < 1 ? interpolate(from, to, 1 - (1 - share) ** 3) : to;
+    if (share >= 1) this.glide = null;
+    return share < 1;
   }
 
   lookFrom(side: StandardView, now: number): void {
@@ -128,7 +130,9 @@ export class CameraView {
   }
 
   private go(pose: Pose, now: number): void {
-    this.glide = CameraMove.start(this.pose, pose, now);
+    // over at once where motion is to be reduced
+    const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.glide = { from: this.pose, to: pose, began: isStill ? -Infinity : now };
   }
 
   private jump(pose: Pose): void {
@@ -136,6 +140,9 @@ export class CameraView {
     this.pose = pose;
   }
 }
+
+/** How long a move takes [s]. */
+const SECONDS = 0.22;
 
 type Projection = "perspective" | "orthographic";
 
@@ -154,41 +161,13 @@ class Cameras {
     camera.quaternion.copy(new Quaternion().setFromRotationMatrix(basis));
     camera.far = distance + reach;
     camera.near = Math.max(distance - reach, projection === "perspective" ? distance * 0.02 : 0);
-    if (camera instanceof OrthographicCamera) this.frame(pose.height, aspect);
+    if (camera instanceof OrthographicCamera) {
+      [camera.top, camera.bottom] = [pose.height / 2, -pose.height / 2];
+      [camera.right, camera.left] = [camera.top * aspect, camera.bottom * aspect];
+    }
     camera.setViewOffset(aspect, 1, -pose.shift[0], pose.shift[1], aspect, 1);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     return camera;
   }
-
-  private frame(height: number, aspect: number): void {
-    const camera = this.orthographic;
-    [camera.top, camera.bottom] = [height / 2, -height / 2];
-    [camera.right, camera.left] = [(height / 2) * aspect, (-height / 2) * aspect];
-  }
 }
-
-const SECONDS = 0.22;
-
-/** A short smooth move from one pose to another. */
-class CameraMove {
-  private constructor(
-    private readonly from: Pose,
-    private readonly to: Pose,
-    private readonly began: number,
-  ) {}
-
-  /** A move that begins now; one that is over at once where motion is to be reduced. */
-  static start(from: Pose, to: Pose, now: number): CameraMove {
-    return new CameraMove(from, to, reducesMotion() ? -Infinity : now);
-  }
-
-  /** Where it is, and whether it has arrived; now: [s]. */
-  at(now: number): { pose: Pose; done: boolean } {
-    const share = Math.min(1, (now - this.began) / SECONDS);
-    if (share >= 1) return { pose: this.to, done: true };
-    return { pose: interpolate(this.from, this.to, 1 - (1 - share) ** 3), done: false };
-  }
-}
-
-const reducesMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -2,24 +2,18 @@
 import { useEffect } from "react";
 import { type CutAxis, hullToCut, leaveCut, performCut, setCut, useCut } from "../../store/cut";
 import { useScenes } from "../../store/scenes";
+import { ACROSS } from "../../store/vectors";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
 import css from "./overlay.module.css";
 
 const AXES: readonly { value: CutAxis; label: string; name: string }[] = [
-  { value: "x", label: "X", name: "Across the X axis" },
-  { value: "y", label: "Y", name: "Across the Y axis" },
-  { value: "z", label: "Z", name: "Across the Z axis" },
+  ...ACROSS,
   { value: "free", label: "Free", name: "Along a line that you draw" },
 ];
 
 export function CutBar() {
-  const inHand = useWorkspace((workspace) => workspace.tool === "cut");
-  return inHand ? <Bar /> : null;
-}
-
-function Bar() {
   const selection = useWorkspace((workspace) => workspace.selection);
   const scene = useScenes((state) => state.scene);
   const { axis, share, drawn } = useCut();

@@ -13,18 +13,14 @@ import type { HullView } from "../../wire";
 import css from "./overlay.module.css";
 
 export function InfoLines() {
+  const why = useScenes(({ scene }) => (scene?.hulls.length ? scene.view.unturned : null));
   return (
     <div className={css.hud}>
       <PointedHull />
-      <UnturnedNote />
+      {why && <div className={css.unturned}>Not oriented: {why}</div>}
       <Counts />
     </div>
   );
-}
-
-function UnturnedNote() {
-  const why = useScenes(({ scene }) => (scene?.hulls.length ? scene.view.unturned : null));
-  return why ? <div className={css.unturned}>Not oriented: {why}</div> : null;
 }
 
 function PointedHull() {

@@ -1,13 +1,13 @@
 // How hulls are made of what has none: settings, a try on the asset in view, then keeping them for it or for all.
 import { useEffect } from "react";
 import { closeDecompose, keepHulls, listBare, showTried, tryOn, useDecompose } from "../../store/decompose";
-import { cancelJob, progressText, useIsDecomposing, useJob } from "../../store/jobs";
+import { useIsDecomposing, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
 import { HullSettings } from "../../ui/HullSettings";
+import { JobProgress } from "../../ui/JobProgress";
 import { Note } from "../../ui/Section";
-import type { Job } from "../../wire";
 import css from "./overlay.module.css";
 
 export function MakeHulls({ asset }: { asset: string }) {
@@ -24,12 +24,12 @@ export function MakeHulls({ asset }: { asset: string }) {
     if (done) showTried();
   }, [done, tried]);
   const all = bare.length > 1 && bare.includes(asset);
-  if (making && job) return <section className={css.message} data-docked aria-label={job.title}><Progress job={job} /></section>;
+  if (making && job) return <section className={css.message} data-docked aria-label={job.title}><JobProgress job={job} /></section>;
   return (
     <section className={css.message} data-docked aria-labelledby="make-hulls">
       <h3 id="make-hulls">{done ? "Hulls to try: none is kept yet" : "Make hulls"}</h3>
       {!latest && <p>{countText(sources, "piece")} of this asset {sources === 1 ? "is" : "are"} not convex, or has no collision geometry. Its file stays as it is.</p>}
-      {latest?.state === "running" ? <Progress job={latest} /> : latest && <Note mood={done ? "good" : "bad"}>{latest.message}</Note>}
+      {latest?.state === "running" ? <JobProgress job={latest} /> : latest && <Note mood={done ? "good" : "bad"}>{latest.message}</Note>}
       <HullSettings />
       <div className={css.choices}>
         <Button look={done ? "plain" : "primary"} disabled={latest?.state === "running"} onClick={() => void tryOn(asset)}>
@@ -50,14 +50,5 @@ export function MakeHulls({ asset }: { asset: string }) {
         )}
       </div>
     </section>
-  );
-}
-
-function Progress({ job }: { job: Job }) {
-  return (
-    <div className={css.choices} role="status">
-      <progress value={job.done || undefined} max={job.total || 1} aria-label={job.title} /> {progressText(job)}
-      <Button onClick={() => cancelJob(job.id)}>Stop</Button>
-    </div>
   );
 }

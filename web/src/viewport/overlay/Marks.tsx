@@ -28,11 +28,6 @@ export function DrawnRegion() {
 
 /** How far hulls that nearly touch are apart, written where the selected or pointed one has such neighbours. */
 export function Gaps() {
-  const contacts = useWorkspace((workspace) => workspace.view.contacts);
-  return contacts ? <GapLabels /> : null;
-}
-
-function GapLabels() {
   const stage = useStage();
   const holder = useRef<HTMLDivElement>(null);
   useFrame(() => {
@@ -48,7 +43,6 @@ interface Spot {
   readonly x: number;
   readonly y: number;
 }
-
 
 /** Spots of which none covers one before it; those that would are moved down. */
 export function separateSpots(spots: readonly Spot[], wide = 58, high = 19): Spot[] {
@@ -80,11 +74,9 @@ export function LandmarkMarks() {
 /** What to click for the orientation. */
 export function LandmarkBar() {
   const landmarks = useWorkspace((workspace) => workspace.landmarks);
-  const inHand = useWorkspace((workspace) => workspace.tool === "landmark");
-  if (!inHand) return null;
   return (
     <div className={css.bar} role="status">
-      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts."}
+      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts, such as a leg for up."}
       <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
         Leave
       </Button>

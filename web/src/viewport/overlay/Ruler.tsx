@@ -33,17 +33,12 @@ function useMeasures(): readonly Measure[] {
   return all.length ? all.filter((one) => one.asset === asset) : NONE;
 }
 
-export function RulerBar() {
-  const inHand = useWorkspace((workspace) => workspace.tool === "ruler");
-  return inHand ? <Bar /> : null;
-}
-
 const UNITS = [
   { value: "m", label: "m", name: "Metres" },
   { value: "mm", label: "mm", name: "Millimetres" },
 ] as const;
 
-function Bar() {
+export function RulerBar() {
   const first = useRuler((state) => state.first);
   const pointed = useRuler((state) => state.pointed);
   const measures = useMeasures();

@@ -4,6 +4,7 @@ import { type PointerEvent, useRef } from "react";
 import { Vector3 } from "three";
 import { useScenes } from "../../store/scenes";
 import { type SectionAxis, sectionAlong, sectionFacing, setSection, useSection } from "../../store/section";
+import { ACROSS } from "../../store/vectors";
 import { IconButton } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
 import { axesOf, plus, type Vec } from "../camera/pose";
@@ -14,17 +15,15 @@ import css from "./overlay.module.css";
 import tools from "./tools.module.css";
 
 const AXES: readonly { value: SectionAxis; label: string; name: string }[] = [
-  { value: "x", label: "X", name: "Across the X axis" },
-  { value: "y", label: "Y", name: "Across the Y axis" },
-  { value: "z", label: "Z", name: "Across the Z axis" },
+  ...ACROSS,
   { value: "view", label: "View", name: "Across the direction of the view as it is now" },
 ];
 
 export function SectionBar() {
-  const { on, axis, share, flipped } = useSection();
+  const { axis, share, flipped } = useSection();
   const there = useScenes(({ scene }) => scene !== null);
   const stage = useStage();
-  if (!on || !there) return null;
+  if (!there) return null;
   const put = (next: SectionAxis) => (next === "view" ? sectionFacing([...axesOf(stage.view.pose).eye]) : sectionAlong(next, useScenes.getState().scene?.view.y_up));
   return (
     <div className={css.bar} role="group" aria-label="Section plane" data-testid="section">
@@ -39,11 +38,6 @@ export function SectionBar() {
 
 /** An arrow on the plane that slides it; keys have the slider of the bar. */
 export function SectionHandle() {
-  const on = useSection((section) => section.on);
-  return on ? <Handle /> : null;
-}
-
-function Handle() {
   const stage = useStage();
   const handle = useRef<HTMLDivElement>(null);
   const grip = useRef<{ x: number; y: number; share: number } | null>(null);

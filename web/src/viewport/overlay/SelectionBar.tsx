@@ -28,7 +28,11 @@ export function SelectionBar() {
   return (
     <>
       {brush !== null && <Paint brush={brush} />}
-      {isSheet || isWide ? <Several /> : searching && <Searching />}
+      {isSheet || isWide ? <Several /> : searching && (
+        <div className={css.bar} role="status">
+          Looking for look-alikes…
+        </div>
+      )}
     </>
   );
 }
@@ -61,14 +65,6 @@ export function BrushFrame() {
 
 const useBrushColor = (brush: string): string =>
   useProject(({ project }) => project.vocabulary.find(({ name }) => name === brush)?.color) ?? "var(--text-dim)";
-
-function Searching() {
-  return (
-    <div className={css.bar} role="status">
-      Looking for look-alikes…
-    </div>
-  );
-}
 
 function Several() {
   const sheet = useWorkspace((workspace) => workspace.sheet.length);

@@ -2,6 +2,7 @@
 import { useRef } from "react";
 import { cutMiddle } from "../../store/commonParts";
 import { useOwnNames } from "../../store/project";
+import type { ScenePart } from "../../store/scene";
 import { useScenes } from "../../store/scenes";
 import { useFrame, useStage } from "../stage/context";
 import css from "./selectionBar.module.css";
@@ -9,14 +10,7 @@ import css from "./selectionBar.module.css";
 /** Letters of a name; assets are near each other. */
 const MOST = 24;
 
-export function SheetNames() {
-  const parts = useScenes(({ scene }) => scene?.parts);
-  return parts ? <Names parts={parts} /> : null;
-}
-
-type Parts = NonNullable<NonNullable<ReturnType<typeof useScenes.getState>["scene"]>["parts"]>;
-
-function Names({ parts }: { parts: Parts }) {
+export function SheetNames({ parts }: { parts: readonly ScenePart[] }) {
   const stage = useStage();
   const ownName = useOwnNames();
   const open = useScenes(({ scene }) => scene?.asset);

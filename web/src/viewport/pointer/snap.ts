@@ -1,5 +1,6 @@
 // The point of a hull that the ruler takes under the pointer: a corner where one is near, else an edge, else the face.
 import { Matrix4, Vector4 } from "three";
+import { plus } from "../camera/pose";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { planeIn } from "../drawing/section";
 import { EDGE, type Eye } from "../geometry/edges";
@@ -67,8 +68,6 @@ function candidates(stage: Stage, side: AssetDrawing, pane: Pane, spot: readonly
 }
 
 const pointIn = (records: Float32Array, at: number): Point => [records[at] ?? 0, records[at + 1] ?? 0, records[at + 2] ?? 0];
-
-const plus = (a: Point, b: Point, times: number): Point => [a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]];
 
 /** Whether a face beside an edge does. */
 function looksAtEye(records: Float32Array, e: number, at: Point, eye: Eye): boolean {

@@ -1,5 +1,5 @@
 // Gives the parts of the viewport the stage they belong to.
-import { createContext, useContext, useEffect, useRef } from "react";
+import { createContext, useContext, useEffect, useEffectEvent } from "react";
 import type { Stage } from "./stage";
 
 export const StageContext = createContext<Stage | null>(null);
@@ -13,12 +13,9 @@ export function useStage(): Stage {
 /** Calls back after each frame, with no rendering by React. */
 export function useFrame(drawn: () => void): void {
   const stage = useStage();
-  const latest = useRef(drawn);
-  useEffect(() => {
-    latest.current = drawn;
-  });
+  const call = useEffectEvent(drawn);
   useEffect(() => {
     stage.invalidate();
-    return stage.onDrawn(() => latest.current());
+    return stage.onDrawn(() => call());
   }, [stage]);
 }

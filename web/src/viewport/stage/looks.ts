@@ -1,6 +1,5 @@
 // What the stores say about the looks of the picture: of the hulls on both sides, and of the contact graph.
 import type { AssetDrawing } from "../drawing/assetDrawing";
-import type { Gap, GraphLine, GraphNode } from "../drawing/contactGraph";
 import type { Appearance } from "../drawing/hullLooks";
 import { hullsToRemove } from "../drawing/previewHulls";
 import type { ThemeColors } from "../drawing/themeColors";
@@ -42,16 +41,10 @@ function highlightedHulls({ asset, view, hulls }: Scene): string[] {
   return hulls.filter(({ name, parent }) => names.has(name) || names.has(parent ?? "")).map((hull) => hull.name);
 }
 
-interface Graph {
-  readonly nodes: readonly GraphNode[];
-  readonly lines: readonly GraphLine[];
-  readonly gaps: readonly Gap[];
-}
-
 const MOST_GAPS = 12;
 
 /** The contact graph of what is shown: dots, lines, and the gaps of near misses that are pointed at. */
-export function graphOf(side: AssetDrawing, explode: number): Graph {
+export function graphOf(side: AssetDrawing, explode: number) {
   const { selection, hover, hidden } = useWorkspace.getState();
   const isStrong = (name: string) => selection.has(name) || hover === name;
   const at = (name: string): Point | null => {

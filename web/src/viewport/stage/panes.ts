@@ -33,18 +33,8 @@ export function paneAt(panes: readonly Pane[], x: number): Pane {
   return pane;
 }
 
-export interface Settings {
-  readonly projection: ViewSettings["projection"];
-  readonly wireframe: boolean;
-  readonly opaque: boolean;
-  readonly grid: boolean;
-  readonly ghost: boolean;
-  readonly contacts: boolean;
-  readonly compare: Compare;
-  readonly divider: number;
-  /** How far hulls move away, in their distances from the centre. */
-  readonly explode: number;
-}
+/** explode: how far hulls move away, in their distances from the centre. */
+export type Settings = Omit<ViewSettings, "colorBy" | "oneSize">;
 
 const FARTHEST = 1.4;
 

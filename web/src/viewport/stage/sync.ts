@@ -9,7 +9,6 @@ import { useProject } from "../../store/project";
 import { type Scene, sceneOf, useScenes } from "../../store/scenes";
 import { sectionPlane, useSection } from "../../store/section";
 import { forgetMissing } from "../../store/selection";
-import { reportError } from "../../store/toasts";
 import { useTour } from "../../store/tour";
 import { useWorkspace, type WorkspaceState } from "../../store/workspace";
 import { appearances, graphOf, showsPreview } from "./looks";
@@ -121,10 +120,10 @@ function fetchBeside(stage: Stage, scene: Scene | null): void {
       stage.change((contents) => contents.compareWith(before));
       paint(stage);
     };
-    sceneOf(scene.asset, { kind: "source" }).then(arrived).catch(reportError);
+    void sceneOf(scene.asset, { kind: "source" }).then(arrived);
   } else stage.change((contents) => contents.compareWith(null));
   if (scene?.view.has_visual && ghost && !stage.contents.ghost) {
-    api.visual(scene.asset).then((packet) => isStill() && stage.change((contents) => contents.setGhost(packet))).catch(reportError);
+    void api.visual(scene.asset).then((packet) => isStill() && stage.change((contents) => contents.setGhost(packet)));
   }
 }
 

@@ -20,10 +20,10 @@ import { lazy, Suspense } from "react";
 import { startCut } from "../../commands/demonstrate";
 import { useScenes, waitForFirstScene } from "../../store/scenes";
 import { useSection } from "../../store/section";
-import { type Compare, setThrough, setTool, setView, type Tool, useWorkspace, type ViewSettings } from "../../store/workspace";
+import { type Compare, setTool, setView, useWorkspace } from "../../store/workspace";
 import { IconButton, Tip } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
-import { commandOf, keyOf } from "./commandLines";
+import { runs } from "./commandLines";
 import { FittedRow, type Part } from "./FittedRow";
 import { ColorChoice, SelectionMenu, ShowingMenu, ViewMenu } from "./menus";
 import css from "./toolbar.module.css";
@@ -73,7 +73,6 @@ function Tools() {
   const tool = useWorkspace((workspace) => workspace.tool);
   const through = useWorkspace((workspace) => workspace.through);
   const isCutOpen = useSection((section) => section.on);
-  const take = (next: Tool) => setTool(tool === next ? "select" : next);
   return (
     <div className={css.group} role="group" aria-label="Tools">
       <IconButton
@@ -82,26 +81,13 @@ function Tools() {
         on={tool === "select"}
         onClick={() => setTool("select")}
       />
-      <IconButton
-        icon={BoxSelect}
-        name={`Box: ${TAKES}`}
-        keys={keyOf("tool-box")}
-        on={tool === "box"}
-        onClick={() => take("box")}
-      />
-      <IconButton
-        icon={Lasso}
-        name={`Lasso: ${TAKES}`}
-        keys={keyOf("tool-lasso")}
-        on={tool === "lasso"}
-        onClick={() => take("lasso")}
-      />
+      <IconButton icon={BoxSelect} name={`Box: ${TAKES}`} on={tool === "box"} {...runs("tool-box")} />
+      <IconButton icon={Lasso} name={`Lasso: ${TAKES}`} on={tool === "lasso"} {...runs("tool-lasso")} />
       <IconButton
         icon={Layers2}
         name="Select through: box, lasso and repeated clicks also take hulls behind others; Alt+click takes the next one behind"
-        keys={keyOf("select-through")}
         on={through}
-        onClick={() => setThrough(!through)}
+        {...runs("select-through")}
       />
       <IconButton
         icon={Slice}
@@ -110,20 +96,8 @@ function Tools() {
         on={tool === "cut"}
         onClick={() => (tool === "cut" ? setTool("select") : startCut())}
       />
-      <IconButton
-        icon={Ruler}
-        name="Ruler: measure between two points, or the selection"
-        keys={keyOf("tool-ruler")}
-        on={tool === "ruler"}
-        onClick={() => take("ruler")}
-      />
-      <IconButton
-        icon={SquareDashedBottom}
-        name="Section plane: see inside"
-        keys={keyOf("section")}
-        on={isCutOpen}
-        onClick={commandOf("section").run}
-      />
+      <IconButton icon={Ruler} name="Ruler: measure between two points, or the selection" on={tool === "ruler"} {...runs("tool-ruler")} />
+      <IconButton icon={SquareDashedBottom} name="Section plane: see inside" on={isCutOpen} {...runs("section")} />
     </div>
   );
 }
@@ -146,8 +120,7 @@ type What = "contacts" | "wireframe" | "ghost" | "opaque";
 
 function Switch({ what, icon, name }: { what: What; icon: typeof Ghost; name: string }) {
   const on = useWorkspace((workspace) => workspace.view[what]);
-  const flip = (): Partial<ViewSettings> => ({ [what]: !on });
-  return <IconButton icon={icon} name={name} keys={keyOf(`toggle-${what}`)} on={on} onClick={() => setView(flip())} />;
+  return <IconButton icon={icon} name={name} on={on} {...runs(`toggle-${what}`)} />;
 }
 
 const OPTIONS: readonly { value: Compare; icon: typeof Square; name: string }[] = [

@@ -8,13 +8,17 @@ import type { MenuLine } from "../../ui/Menu";
 const commands = new Map([...selectCommands, ...viewCommands, ...measureCommands].map((command) => [command.id, command]));
 
 /** A command of this room by its id. */
-export function commandOf(id: string): Command {
+function commandOf(id: string): Command {
   const command = commands.get(id);
   if (!command) throw new RangeError(`there is no command ${id}`);
   return command;
 }
 
-export const keyOf = (id: string): string | undefined => commandOf(id).keys[0];
+/** A button that runs a command, with its key. */
+export function runs(id: string): { keys: string | undefined; onClick: () => void } {
+  const { keys, run } = commandOf(id);
+  return { keys: keys[0], onClick: () => void run() };
+}
 
 /** Commands as lines of a menu, disabled where they make no sense now. */
 export function linesOf(ids: readonly string[]): MenuLine[] {

@@ -1,13 +1,13 @@
 // The menus of the toolbar: what is done to the selection, which state is shown, by what hulls are coloured, and from
 // where one looks.
-import { Box, Check, ChevronDown, Cuboid, Maximize, Palette, Video } from "lucide-react";
+import { Box, ChevronDown, Cuboid, Maximize, Palette, Video } from "lucide-react";
 import { useProject } from "../../store/project";
 import { type Scene, useAssetView, useScenes } from "../../store/scenes";
-import { type ColorBy, lookFrom, select, setUnit, setView, type Showing, useUnit, useWorkspace, visit } from "../../store/workspace";
+import { type ColorBy, select, setUnit, setView, type Showing, useUnit, useWorkspace, visit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
-import { Menu, type MenuLine } from "../../ui/Menu";
+import { choiceLines, Menu, type MenuLine } from "../../ui/Menu";
 import { Swatch } from "../../ui/Section";
-import { commandOf, keyOf, linesOf } from "./commandLines";
+import { linesOf, runs } from "./commandLines";
 import css from "./toolbar.module.css";
 
 export function SelectionMenu() {
@@ -46,9 +46,9 @@ function labelLines({ hulls }: Scene, vocabulary: readonly { name: string; color
     const names = hulls.filter((hull) => hull.label === name).map((hull) => hull.name);
     if (!names.length || names.length === hulls.length) return [];
     const label = (
-      <span className={css.labelLine}>
+      <>
         <Swatch color={color} /> All {name ?? "without a label"} <small>{names.length}</small>
-      </span>
+      </>
     );
     return [{ label, onSelect: () => select(names) }];
   });
@@ -79,12 +79,12 @@ export function ShowingMenu() {
       }
       lines={states.map((state) => ({
         label: (
-          <span className={css.labelLine}>
-            <Check size={13} aria-hidden style={{ visibility: nameOf(state) === now ? "visible" : "hidden" }} />
+          <>
             {nameOf(state)}
             {state.kind === "steps" && <small>{steps[state.steps - 1]?.action.text}</small>}
-          </span>
+          </>
         ),
+        on: nameOf(state) === now,
         onSelect: () => visit(asset, state),
       }))}
     />
@@ -98,11 +98,7 @@ function nameOf(showing: Showing): string {
   return showing.of === "program" ? "By the program" : "Written output";
 }
 
-const NAMES: Readonly<Record<ColorBy, string>> = {
-  label: "Label",
-  hull: "Hull",
-  body: "Body",
-};
+const NAMES: Readonly<Record<ColorBy, string>> = { label: "Label", hull: "Hull", body: "Body" };
 
 /** By what hulls are coloured. */
 export function ColorChoice() {
@@ -115,23 +111,12 @@ export function ColorChoice() {
           <ChevronDown size={13} aria-hidden />
         </Button>
       }
-      lines={(Object.keys(NAMES) as ColorBy[]).map((value) => ({
-        label: (
-          <span className={css.labelLine}>
-            <Check size={13} aria-hidden style={{ visibility: value === colorBy ? "visible" : "hidden" }} />
-            Colour by {NAMES[value].toLowerCase()}
-          </span>
-        ),
-        onSelect: () => setView({ colorBy: value }),
-      }))}
+      lines={choiceLines(NAMES, colorBy, (value) => setView({ colorBy: value }))}
     />
   );
 }
 
-const UNITS = [
-  { value: "m", name: "Lengths in metres" },
-  { value: "mm", name: "Lengths in millimetres" },
-] as const;
+const UNITS = { m: "Lengths in metres", mm: "Lengths in millimetres" } as const;
 
 /** The camera: projection, fitting, standard views; the grid, and the unit of lengths. */
 export function ViewMenu() {
@@ -148,10 +133,9 @@ export function ViewMenu() {
         icon={parallel ? Box : Cuboid}
         name={isSheet ? "Parallel projection, in which sizes compare" : projection}
         disabled={isSheet}
-        keys={keyOf("projection")}
-        onClick={commandOf("projection").run}
+        {...runs("projection")}
       />
-      <IconButton icon={Maximize} name="Fit all into the view" keys={keyOf("fit")} onClick={() => lookFrom("fit")} />
+      <IconButton icon={Maximize} name="Fit all into the view" {...runs("fit")} />
       <Menu
         trigger={
           <button type="button" className={css.camera} aria-label="Standard views, grid and units" title="Standard views, grid and units">
@@ -163,23 +147,9 @@ export function ViewMenu() {
           "line",
           ...linesOf(["fit", "frame"]),
           "line",
-          {
-            label: (
-              <span className={css.labelLine}>
-                <Check size={13} aria-hidden style={{ visibility: grid ? "visible" : "hidden" }} /> Grid and axes
-              </span>
-            ),
-            onSelect: () => setView({ grid: !grid }),
-          },
+          { label: "Grid and axes", on: grid, onSelect: () => setView({ grid: !grid }) },
           "line",
-          ...UNITS.map(({ value, name }) => ({
-            label: (
-              <span className={css.labelLine}>
-                <Check size={13} aria-hidden style={{ visibility: value === unit ? "visible" : "hidden" }} /> {name}
-              </span>
-            ),
-            onSelect: () => setUnit(value),
-          })),
+          ...choiceLines(UNITS, unit, setUnit),
         ]}
       />
     </div>

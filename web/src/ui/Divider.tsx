@@ -1,6 +1,6 @@
 // A line between two parts that can be moved, by pointer or arrow keys.
-import { useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
-import css from "./App.module.css";
+import { type CSSProperties, type KeyboardEvent, type PointerEvent, useRef, useState } from "react";
+import css from "./divider.module.css";
 
 interface DividerProps {
   name: string;
@@ -9,6 +9,9 @@ interface DividerProps {
   edge?: "left" | "right";
   value: number;
   range: readonly [number, number];
+  /** Of a line with looks of its own. */
+  className?: string | undefined;
+  style?: CSSProperties;
   /** The part that is measured lies after the line. */
   flipped?: boolean;
   /** How many units of the value a pixel is; 1 unless it is a share. */
@@ -18,7 +21,7 @@ interface DividerProps {
   onCollapse?: () => void;
 }
 
-export function Divider({ name, along, edge, value, range, flipped, unit, onChange, onCollapse }: DividerProps) {
+export function Divider({ name, along, edge, className = css.divider, style, value, range, flipped, unit, onChange, onCollapse }: DividerProps) {
   const from = useRef<{ at: number; value: number } | null>(null);
   const [dragged, setDragged] = useState(false);
   const [least, most] = range;
@@ -37,10 +40,11 @@ export function Divider({ name, along, edge, value, range, flipped, unit, onChan
     put(wanted);
   }
   function key(event: KeyboardEvent): void {
-    const by = { ArrowLeft: -16, ArrowUp: -16, ArrowRight: 16, ArrowDown: 16 }[event.key];
-    if (by === undefined) return;
+    const by = { ArrowLeft: -16, ArrowUp: -16, ArrowRight: 16, ArrowDown: 16, PageUp: -80, PageDown: 80 }[event.key];
+    const end = { Home: least, End: most }[event.key];
+    if (by === undefined && end === undefined) return;
     event.preventDefault();
-    put(value + by * pixel());
+    put(end ?? value + (by ?? 0) * pixel());
   }
   return (
     <div
@@ -51,7 +55,8 @@ export function Divider({ name, along, edge, value, range, flipped, unit, onChan
       aria-valuenow={Math.round(value * 100) / 100}
       aria-valuemin={least}
       aria-valuemax={most}
-      className={css.divider}
+      className={className}
+      style={style}
       data-along={along}
       data-edge={edge}
       data-dragged={dragged}

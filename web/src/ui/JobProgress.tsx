@@ -1,28 +1,32 @@
-// Progress of a job with the time that is left, and a button that stops it.
+// A job: its progress with the time that is left, a button that stops it, and what came of it.
 import { Square } from "lucide-react";
-import { cancelJob, progressText } from "../../store/jobs";
-import { capitalize } from "../../store/words";
-import { openAsset } from "../../store/workspace";
-import { useOwnNames } from "../../store/project";
-import { Button } from "../../ui/Button";
-import { Name } from "../../ui/Name";
-import { Note } from "../../ui/Section";
-import type { Job, JobLine } from "../../wire";
-import css from "./review.module.css";
+import { cancelJob, progressText } from "../store/jobs";
+import { capitalize } from "../store/words";
+import { openAsset } from "../store/workspace";
+import { useOwnNames } from "../store/project";
+import { Button } from "./Button";
+import { Name } from "./Name";
+import { Note } from "./Section";
+import type { Job, JobLine } from "../wire";
+import css from "./jobs.module.css";
+
+/** Jobs that compare all hulls once all are counted. */
+const COMPARES: readonly Job["kind"][] = ["label", "rebuild"];
 
 export function JobProgress({ job, unit }: { job: Job; unit?: string }) {
+  const isCounted = job.done < job.total || !COMPARES.includes(job.kind);
   return (
     <div className={css.job}>
-      <div className={css.split}>
+      <div className={css.head}>
         <span role="status">
-          {job.doing && `${capitalize(job.doing)}: `}
-          {progressText(job, unit)}
+          {isCounted && job.doing && `${capitalize(job.doing)}: `}
+          {isCounted ? progressText(job, unit) : "Comparing all hulls…"}
         </span>
-        <Button icon={Square} onClick={() => cancelJob(job.id)}>
+        <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label={`Stop: ${job.title}`}>
           Stop
         </Button>
       </div>
-      <progress value={job.done} max={Math.max(1, job.total)} aria-label={job.title} />
+      <progress value={isCounted ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
     </div>
   );
 }
