@@ -207,7 +207,8 @@ class History:
         written: dict[str, tuple[str | None, ...]] = {}
         for path, content in writes:
             name = relative_name(path, self._folder)
-            written[name] = (*written.get(name, ()), _digest_of(content))
+            digest = None if content is None else hashlib.blake2b(content, digest_size=16).hexdigest()
+            written[name] = (*written.get(name, ()), digest)
         with self.record(title, edit, dict(writes), written=written):
             for path, content in writes:
                 self._snapshots.write(path, content)
@@ -317,7 +318,3 @@ class History:
         wanted, _ = diff_states(before, now)
         self._snapshots.restore(wanted, {name: now.get(name) for name in wanted})
         self._files.end()
-
-
-def _digest_of(content: bytes | None) -> str | None:
-    return None if content is None else hashlib.blake2b(content, digest_size=16).hexdigest()

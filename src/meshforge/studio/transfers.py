@@ -88,9 +88,8 @@ async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int, nam
             async for chunk in chunks:
                 size += len(chunk)
                 if size > most:
-                    raise TooLargeError(
-                        f"this file is larger than {most // MB} MB", where=name, remedy="Send a smaller one."
-                    )
+                    problem = f"this file is larger than {most // MB} MB"
+                    raise TooLargeError(problem, where=name, remedy="Send a smaller one.")
                 stream.write(chunk)
     except (FileExistsError, NotADirectoryError, IsADirectoryError):
         raise UsageError("a file and a folder have the same name", where=name) from None

@@ -190,7 +190,8 @@ def _handle_error(_: Request, error: Exception) -> JSONResponse:
         case HTTPException():
             problem, status = Problem(message=str(error.detail)), error.status_code
         case _:
-            problem, status = _problem_of(error), _status_of(error)
+            status = next((status for kind, status in _STATUSES.items() if isinstance(error, kind)), 500)
+            problem = _problem_of(error)
     if status == 500:
         _LOG.debug("a fault of the studio", exc_info=error)
     return JSONResponse(problem.model_dump(mode="json"), status)
@@ -209,14 +210,9 @@ class PageFiles(StaticFiles):
 def open_page(folder: Path) -> Any:
     """Return the page in a folder. Raises MeshForgeError where it was not built."""
     if not (folder / "index.html").is_file():
-        raise MeshForgeError(
-            "the page of the studio is not built", where=str(folder), remedy="Build it: script/build-web"
-        )
+        remedy = "Build it: script/build-web"
+        raise MeshForgeError("the page of the studio is not built", where=str(folder), remedy=remedy)
     return PageFiles(directory=folder, html=True)
-
-
-def _status_of(error: Exception) -> int:
-    return next((status for kind, status in _STATUSES.items() if isinstance(error, kind)), 500)
 
 
 def _problem_of(error: Exception) -> Problem:
@@ -224,10 +220,6 @@ def _problem_of(error: Exception) -> Problem:
     if isinstance(error, OSError):
         error = explain_refusal(error) or error
     if isinstance(error, MeshForgeError):
-        return Problem(
-            message=error.problem,
-            where=error.where,
-            remedy=error.remedy,
-            conflict=isinstance(error, ConflictError),
-        )
+        conflict = isinstance(error, ConflictError)
+        return Problem(message=error.problem, where=error.where, remedy=error.remedy, conflict=conflict)
     return Problem(message=describe_error(error, fault="start the studio with --debug to see where it comes from"))

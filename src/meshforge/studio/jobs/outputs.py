@@ -167,10 +167,8 @@ def start_check(session: Session) -> Job:
         with_text = failed = 0
         for asset, found in session.checks.check_all(session.project, assets, progress.advance, progress.is_stopped):
             line = to_line(asset, found)
-            with_text, failed = (
-                with_text + bool(line.text and line.status == "done"),
-                failed + (line.status == "failed"),
-            )
+            with_text += bool(line.text and line.status == "done")
+            failed += line.status == "failed"
             progress.add_line(line)
             session.refresh_queue.add([asset])
         broken = f"; {failed} could not be checked" if failed else ""

@@ -5,18 +5,14 @@ from contextlib import contextmanager
 from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Literal
+from typing import Any
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, apply_preparation, count_processors, record_digest
 from meshforge.common import GeometryError, format_share, pluralize, relative_name
 from meshforge.formats import read
 from meshforge.geometry import CoacdSettings, VhacdSettings
-from meshforge.labels import (
-    LabelOutcome,
-    LabelResult,
-    Tally,
-)
+from meshforge.labels import LabelOutcome, LabelResult, Tally
 from meshforge.project import (
     REBUILD_DEFAULTS,
     SOURCE_WORDS,
@@ -33,7 +29,7 @@ from meshforge.store import ConflictError, Layout
 from meshforge.studio.queries.packets import pack_edited
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
-from meshforge.studio.wire.jobs import DecomposeJob, DecomposeOptions, Job, JobLine, PreviewJob, RebuildJob
+from meshforge.studio.wire.jobs import DecomposeJob, DecomposeOptions, Job, JobLine, JobStatus, PreviewJob, RebuildJob
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
 
@@ -182,8 +178,7 @@ def _rebuild_lines(result: PreparationResult, was_asked: bool) -> Iterator[JobLi
     elif not result.problems:
         texts = ["; ".join(map(str, result.found)) or "no hull spans parts any more: left as it is", *texts]
     if texts:
-        status: Literal["failed", "done", "skipped"]
-        status = "failed" if result.problems else "done" if result.made else "skipped"
+        status: JobStatus = "failed" if result.problems else "done" if result.made else "skipped"
         yield JobLine(asset=asset, status=status, text="; ".join(texts))
 
 

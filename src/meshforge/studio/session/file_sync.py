@@ -88,7 +88,7 @@ class FileSync:
         """See whether others changed something. Never raises: an error is shown, and the next poll tries again."""
         try:
             now = read_stamps(self.project)
-            changed = diff_stamps(self._stamps, now)
+            changed = {name for name in self._stamps | now if self._stamps.get(name) != now.get(name)}
             self._stamps = now
             if any((self.project.folder / name).is_dir() for name in changed):
                 self.reopen()
@@ -174,11 +174,6 @@ def read_stamps(project: Project) -> FileStamps:
 
 def _list_files(path: Path) -> Iterator[Path]:
     return (one for one in path.rglob("*") if not one.name.startswith(".")) if path.is_dir() else iter([path])
-
-
-def diff_stamps(before: FileStamps, now: FileStamps) -> frozenset[str]:
-    """Return the names of files that are other, new or gone."""
-    return frozenset(name for name in before | now if before.get(name) != now.get(name))
 
 
 def _source_files(path: Path) -> list[Path]:

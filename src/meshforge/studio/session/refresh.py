@@ -118,16 +118,19 @@ class Refresher:
         propagation = self._label_changes.propagation_state(cards)
         new, damage = self._new_assets.find(project, cards)
         problem = status.problem or damage
-        offers = partial(find_offers, project, self._offers, self._pages.readable)
-        family = replace(status.family, find_offers=offers)
         shown = self._pages.shown
-        known = shown.program, shown.outcome, shown.assessment
         is_judged = not shown.learning and (not shown.assessing or shown.assessment is not None)
         feedback = project.feedback()
         has_replies = bool(feedback.verdicts or feedback.answers or feedback.replied)
-        family = add_session(family, *known, propagation, problem)
         titles = {kind: job.title for job in self._pages.running_jobs for kind in _STEPS_OF.get(job.kind, ())}
-        family = replace(family, is_judged=is_judged, shown=shown.project.next, has_replies=has_replies, running=titles)
+        family = replace(
+            add_session(status.family, shown.program, shown.outcome, shown.assessment, propagation, problem),
+            find_offers=partial(find_offers, project, self._offers, self._pages.readable),
+            is_judged=is_judged,
+            shown=shown.project.next,
+            has_replies=has_replies,
+            running=titles,
+        )
         # what is not looked at yet would be proposed though it is done
         step = shown.project.next if self.queue.remaining else choose_next_step(family)
         ask_up = find_unclear_up(project, self._pages.with_hulls)
@@ -152,15 +155,12 @@ class Refresher:
             self._job, self._read = None, 0
 
 
-_Basis = tuple[object, ...]
-
-
 class NewAssetsQuery:
     """Finds which assets a run prepares first. All preparations are read for that, so it is asked again only where the
     project's file about it, its assets, or what was done to one of them is another."""
 
     def __init__(self) -> None:
-        self._basis: _Basis | None = None
+        self._basis: tuple[object, ...] | None = None
         self._found: tuple[NewAssetsView | None, str | None] = None, None
 
     def find(self, project: Project, cards: Iterable[Card]) -> tuple[NewAssetsView | None, str | None]:

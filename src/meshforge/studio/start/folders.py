@@ -113,9 +113,8 @@ def check_place(folder: Path) -> None:
     """Raise UsageError where no new project can be made: something is there already, or it cannot be written."""
     try:
         if is_project(folder):
-            raise UsageError(
-                "there is a project here already", where=str(folder), remedy="Open it, or name another folder."
-            )
+            remedy = "Open it, or name another folder."
+            raise UsageError("there is a project here already", where=str(folder), remedy=remedy)
         if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
             raise UsageError("there is a file or a link of this name", where=str(folder), remedy="Name another folder.")
         if other := next(folder.iterdir(), None) if folder.exists() else None:

@@ -5,7 +5,7 @@ import logging
 import os
 import shutil
 from collections.abc import Mapping
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -37,8 +37,8 @@ class StartPage:
     def __init__(self, state: Path) -> None:
         self.recent = RecentProjects(state)
         self._workers = Workers(READERS)
-        self._stack = ExitStack()
-        self._uploads: Uploads | None = None
+        self._home = TemporaryDirectory(prefix="meshforge-")
+        self.uploads = Uploads(Path(self._home.name) / "uploads")  # files that were sent for a new project
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
@@ -57,14 +57,6 @@ class StartPage:
             places=tuple(dict.fromkeys(map(str, (Path.cwd(), Path.home())))),
             tour=str(folders.suggest_project("tables-tour")),
         )
-
-    @property
-    def uploads(self) -> Uploads:
-        """Files that were sent for a new project; in a folder that goes with this studio."""
-        if self._uploads is None:
-            home = self._stack.enter_context(TemporaryDirectory(prefix="meshforge-"))
-            self._uploads = Uploads(Path(home) / "uploads")
-        return self._uploads
 
     def look_at_folder(self, folder: str) -> wire.AssetsFound:
         """Return what a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
@@ -99,7 +91,11 @@ class StartPage:
                 self.uploads.keep_readable(self._workers)  # raises ProjectError where nothing was sent
                 _create_of_upload(home, project)
             case wire.ProjectOfFamily():
-                _create_of_family(request.family, project)
+                family = family_of(request.family)
+                with folders.build_project(project) as draft:
+                    home = draft / ASSETS_FOLDER
+                    write_family(family, home)
+                    Project.create(draft, [home / family.pattern], name=project.name, vocabulary=family.vocabulary)
             case wire.ProjectOfTour():
                 with folders.build_project(project) as draft:
                     create_tour_project(draft, draft / ASSETS_FOLDER, project.name)
@@ -111,15 +107,12 @@ class StartPage:
         """Free what only the start page needs, as a project is open."""
         self._workers.close()
         self._workers = Workers(READERS)
-        if self._uploads:
-            self._uploads.clear()
+        self.uploads.clear()
 
     def close(self) -> None:
         """Stop all work, and remove what was sent."""
         self._workers.close()
-        if self._uploads:
-            self._uploads.clear()
-        self._stack.close()
+        self._home.cleanup()
 
 
 def _create_of_folder(assets: Path, project: Path) -> None:
@@ -138,25 +131,12 @@ def _create_of_upload(upload: Path, project: Path) -> None:
         home = draft / ASSETS_FOLDER
         shutil.move(upload, home)
         try:
-            Project.create(draft, [_innermost_folder(home)], name=project.name)
+            inside = list(home.iterdir())  # ids count from the one folder that was sent, where all files lie in it
+            one = inside[0] if len(inside) == 1 and inside[0].is_dir() else home
+            Project.create(draft, [one], name=project.name)
         except BaseException:
             shutil.move(home, upload)
             raise
-
-
-def _create_of_family(name: str, project: Path) -> None:
-    """Make a project of a bundled family. Raises UsageError for a name that no family has."""
-    family = family_of(name)
-    with folders.build_project(project) as draft:
-        home = draft / ASSETS_FOLDER
-        write_family(family, home)
-        Project.create(draft, [home / family.pattern], name=project.name, vocabulary=family.vocabulary)
-
-
-def _innermost_folder(home: Path) -> Path:
-    """The folder that ids count from: the one folder that was sent, where all files lie in it."""
-    inside = list(home.iterdir())
-    return inside[0] if len(inside) == 1 and inside[0].is_dir() else home
 
 
 _LOG = logging.getLogger(__name__)
