@@ -21,19 +21,15 @@ FIRST, THIRD = "table_01.obj", "table_03.obj"
 Fields = Callable[[Studio], dict[str, Any]]
 
 
-def prepared_project(folder: Path) -> Project:
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     """Demonstrated tables with outputs, and a hull without a label."""
+    folder = tmp_path_factory.mktemp("edits")
     project = demo_project(folder, tables=FEW)
     project.synthesize()
     project.set_labels(THIRD, {"convex_05": None})
     list(project.apply([FIRST, THIRD], execution=IN_PROCESS))
-    return project
-
-
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
-    folder = tmp_path_factory.mktemp("edits")
-    with opened(folder, prepared_project(folder).folder) as found:
+    with opened(folder, project.folder) as found:
         found.settled()
         yield found
 

@@ -78,6 +78,9 @@ def test_the_project_that_was_opened_last_comes_first_and_once(state: Path) -> N
     for name in "aba":
         recent.add(Path("/projects") / name, name, 3)
     assert [one.name for one in recent.list()] == ["a", "b"]
+    for k in range(101):
+        recent.add(Path("/projects") / str(k), str(k), 1)
+    assert len(recent.list()) == 100 and recent.list()[0].name == "100", "a hundred stay"
 
 
 def test_a_project_that_is_gone_is_shown_as_gone_and_can_be_forgotten(state: Path, tmp_path: Path) -> None:
@@ -108,13 +111,6 @@ def test_recent_projects_say_how_far_they_are_as_long_as_nothing_changed(
     assert recent.list()[0].state == "changed since it was left"
     (folder / "meshforge.toml").write_text("name = [")
     assert "this is no TOML" in recent.list()[0].state
-
-
-def test_a_hundred_recent_projects_stay(state: Path, tmp_path: Path) -> None:
-    recent = RecentProjects(state)
-    for k in range(101):
-        recent.add(tmp_path / str(k), str(k), 1)
-    assert len(recent.list()) == 100 and recent.list()[0].name == "100"
 
 
 @pytest.mark.parametrize("text", ["", "{broken", '{"projects": 3}', "[]"])
@@ -205,10 +201,12 @@ def test_a_project_of_an_upload_has_the_assets_that_can_be_read_in_its_own_folde
 ) -> None:
     send(page, "desks/table_01.obj", (TABLES / "table_01.obj").read_bytes())
     send(page, "desks/bad.obj", b"v 0 0 zero\nf 1 1 1\n")
+    send(page, "desks/notes.txt", b"mine")
     found = page.look_at_upload()
     assert (found.assets, found.broken, found.left_out) == (1, 1, True)
     assert Path(found.project).name.split("-")[0] == "desks"
     assert found.problem and "bad.obj" in found.problem
+    assert page.uploads.list_files()[1] == ("desks/notes.txt", "desks/table_01.obj")
     project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
     assert project.assets() == ("table_01.obj",)
     assert project.path("table_01.obj") == tmp_path / "p" / "assets" / "desks" / "table_01.obj"

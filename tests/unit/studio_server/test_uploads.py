@@ -8,9 +8,8 @@ from typing import TypeVar
 import pytest
 
 from meshforge.common import ProjectError, UsageError
-from meshforge.samples import TABLES
 from meshforge.studio import transfers
-from meshforge.studio.transfers import TooLargeError, Uploads, confine_path, find_assets, save_stream
+from meshforge.studio.transfers import TooLargeError, Uploads, confine_path, find_assets
 from meshforge.studio.workers import Workers
 
 Result = TypeVar("Result")
@@ -43,20 +42,14 @@ def test_plain_paths_are_taken(path: str) -> None:
     assert confine_path(path).as_posix() == path
 
 
-def test_a_file_that_is_too_large_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(TooLargeError):
-        asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"456"), 5, "a"))
-    assert not list(tmp_path.iterdir())
-    asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"45"), 5, "a"))
-    assert (tmp_path / "a").read_bytes() == b"12345"
-
-
-def test_what_is_too_large_is_called_as_the_page_calls_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_is_too_large_is_named_and_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transfers, "MOST_ONE_FILE", 5)
     home = Uploads(tmp_path / "uploads")
     with pytest.raises(TooLargeError) as refused:
-        asyncio.run(home.put("robot/arm.stl", chunks(b"123456")))
-    assert refused.value.where == "robot/arm.stl"
+        asyncio.run(home.put("robot/arm.stl", chunks(b"123", b"456")))
+    assert refused.value.where == "robot/arm.stl" and home.list_files()[1] == ()
+    asyncio.run(home.put("robot/arm.stl", chunks(b"123", b"45")))
+    assert (home.list_files()[0] / "robot/arm.stl").read_bytes() == b"12345"
 
 
 def test_files_that_are_too_large_together_are_no_fault_of_the_last_one(
@@ -82,7 +75,6 @@ def test_what_was_sent_to_an_earlier_studio_is_gone(tmp_path: Path) -> None:
     assert Uploads(tmp_path / "uploads").list_files()[1] == ()
 
 
-BOX = (TABLES / "table_01.obj").read_bytes()
 _BODY = "<worldbody><body><geom size='1'/></body></worldbody>"
 _MESH_GEOM = "<worldbody><body><geom type='mesh' mesh='m'/></body></worldbody>"
 _MESH_LINK = "<link name='a'><collision name='c'><geometry>{}</geometry></collision></link>"
@@ -127,13 +119,3 @@ def test_what_lies_beside_in_the_sent_folder_is_still_found(tmp_path: Path) -> N
     (tmp_path / "shared").mkdir()
     (tmp_path / "shared" / "part.xml").write_text("<mujocoinclude><option timestep='0.01'/></mujocoinclude>")
     assert find_assets(InProcess(1), tmp_path).names == ("robot/main.xml",)
-
-
-def test_one_asset_that_cannot_be_read_does_not_keep_the_others_out(tmp_path: Path) -> None:
-    home = Uploads(tmp_path / "uploads")
-    for name, content in (("desk.obj", BOX), ("bad.obj", b"v 0 0 zero\nf 1 1 1\n"), ("notes.txt", b"mine")):
-        asyncio.run(home.put(name, chunks(content)))
-    sent = home.keep_readable(InProcess(1))
-    assert sent.names == ("desk.obj",)
-    assert list(sent.unreadable) == ["bad.obj"] and "bad.obj" in sent.problems[0]
-    assert home.list_files()[1] == ("desk.obj", "notes.txt")
