@@ -1417,8 +1417,7 @@ export interface PreviewRequest {
   result?: boolean;
 }
 /**
- * An error. where: what it is about; conflict: the change was based on an old state; the page shows the present one
- * and asks again.
+ * An error. where: what it is about; conflict: the change was based on an old state; the page asks again.
  */
 export interface Problem {
   message: string;
@@ -1472,8 +1471,7 @@ export interface SimilarRequest {
 }
 /**
  * Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
- * step may take more; unread: assets that could not be looked in; passed_over: how many were not, as there are too
- * many.
+ * step may take more; unread: assets that could not be looked in; passed_over: how many more there are.
  */
 export interface SimilarView {
   found: HullsOfAsset[];
@@ -1483,8 +1481,7 @@ export interface SimilarView {
   passed_over: number;
 }
 /**
- * An upload is stored. names: the paths of asset files; problems: why other assets of it cannot be read, and were
- * left out.
+ * An upload is stored. names: the paths of asset files; problems: why other assets were left out.
  */
 export interface UploadReceipt {
   names: string[];

@@ -36,8 +36,7 @@ def name_of(path: Path | None) -> str:
 
 
 def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
-    """Return what MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as
-    MJCF."""
+    """Return what MuJoCo says: of an MJCF or a URDF as it is, of others as `meshforge convert` writes it as MJCF."""
     form = format_of(path).name if path else ""
     own = path is not None and form in _OWN_FORMATS["mujoco"]
     try:
@@ -92,8 +91,7 @@ def _is_taken_converted(mesh: SymbolicMesh) -> bool:
 
 
 def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
-    """Return what PyBullet says of a URDF, SDF, OBJ or STL, in a process of its own, since it may crash; of other files
-    nothing."""
+    """Return what PyBullet says of a URDF, SDF, OBJ or STL, in its own process, as it may crash; nothing of others."""
     if path is None or format_of(path).name not in _OWN_FORMATS["bullet"]:
         return EngineLoad(engine, name_of(path))
     if find_spec("pybullet") is None:

@@ -1,5 +1,4 @@
-"""What checks found before, by the digests of all that decided it: unchanged assets are not checked again, and only new
-errors fail a build."""
+"""What checks found before, by the digests of all that decided it: checked is what changed, only new errors fail."""
 
 from collections.abc import Iterable, Mapping
 from contextlib import suppress

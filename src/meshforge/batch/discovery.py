@@ -182,8 +182,7 @@ def find_assets_in(folder: Path) -> list[Path]:
 
 
 def is_own(path: Path, root: Path) -> bool:
-    """Return whether MeshForge wrote it: below `root`, it lies in an output of `apply` or in a folder that a project
-    keeps."""
+    """Return whether MeshForge wrote it: below `root`, in an output of `apply` or a folder that a project keeps."""
     inside = path.relative_to(root).parts if path.is_relative_to(root) else ()
     above = [root.joinpath(*inside[:depth]) for depth in range(len(inside) + 1)]
     kept = (step in OWN_FOLDERS and (folder / SETTINGS).is_file() for folder, step in zip(above, inside, strict=False))

@@ -48,8 +48,7 @@ class AssetJob:
     classes: Path | None = None
 
     def read_labels(self) -> LabelFile:
-        """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
-        read."""
+        """Return its labels, and the classes of hulls without one. Raises AssetError where they cannot be read."""
         return (read_labels(self.labels) if self.labels else LabelFile()).fill(read_classes(self.classes))
 
 

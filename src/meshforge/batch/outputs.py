@@ -44,8 +44,7 @@ def find_disk_problem(error: BaseException | None) -> str | None:
 
 
 def drafts_folder(out: Path) -> Path:
-    """Return the folder for outputs that are not in place yet; on the disk of the output, so that they can be
-    renamed."""
+    """Return the folder for outputs that are not in place yet, on the disk of these, so that they can be renamed."""
     return out / STATE / "drafts"
 
 

@@ -124,8 +124,7 @@ def stamp_path(folder: Path, asset: str) -> Path:
 
 
 def read_stamp(folder: Path, asset: str) -> Stamp | None:
-    """Return the stamp of an asset's output; None where there is none, or none that can be read, so that it is made
-    again."""
+    """Return the stamp of an asset's output; None where none can be read, so that it is made again."""
     return read_stamp_file(stamp_path(folder, asset))
 
 
@@ -167,8 +166,7 @@ def content_digest(path: Path) -> str:
 
 
 def program_digest(program: language.Program) -> str:
-    """Return the digest of what a program does: its canonical form without comments and without labels that are not
-    used."""
+    """Return the digest of what a program does: its canonical form without comments and unused labels."""
     rules = tuple(replace(rule, comments=language.Comments()) for rule in program.rules)
     return text_digest(str(replace(program, labels=(), rules=rules, comments=language.HeaderComments())))
 
@@ -179,8 +177,7 @@ def template_digests(templates: Mapping[str, language.Template]) -> dict[str, st
 
 
 def asset_digests(path: Path, referenced: Iterable[Path], base: Path) -> dict[str, str]:
-    """Return the digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in
-    it."""
+    """Return the digest of every file of an asset, by its path relative to `base`; of a folder, its mesh files."""
     return {relative_name(file, base): file_digest(file) for file in sorted({*source_files(path), *referenced})}
 
 

@@ -100,8 +100,7 @@ class Check(ABC):
 
     @abstractmethod
     def examine(self, mesh: SymbolicMesh, before: SymbolicMesh | None) -> Iterable[Finding]:
-        """Return what is wrong with a mesh, nothing where all is well; before: the mesh that it was edited from, if
-        known."""
+        """Return what is wrong with a mesh, nothing where all is well; before: the mesh before the edit, if known."""
 
     def measure(self, subject: CheckSubject) -> CheckFindings:
         """Return what is wrong, with what was measured to find that out; by default what `examine` says."""
@@ -169,8 +168,7 @@ class EngineLoad(Measure):
             yield Finding(f"{self.engine}-warned", "warning", (), f"{self.asked} warns: {warning}", "")
 
     def to_json(self) -> dict[str, Any]:
-        """Return the trial as JSON-able data; `against` is `engine` where the engine itself was asked, else
-        `limits`."""
+        """Return the trial as JSON-able data; `against` is `engine` where that was asked, else `limits`."""
         return {
             "name": self.engine,
             "against": "engine" if self.asked else "limits",

@@ -67,8 +67,7 @@ class FitGroup:
         return found
 
     def measure_bare(self, points: Floats) -> tuple[Floats, Ints]:
-        """Return how far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if
-        off."""
+        """Return how far [m] each point (n, 3) of the visual mesh is from all hulls, and the nearest (n,), if off."""
         gaps, nearest = np.zeros(len(points)), np.zeros(len(points), np.int64)
         off = np.flatnonzero(~_is_inside(points, self.hulls))
         gaps[off], triangle = self.hull_surface.distances(points[off])

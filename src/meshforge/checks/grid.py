@@ -66,8 +66,7 @@ def grid_around(bounds: Aabb, cell: float | None = None) -> Grid:
 
 
 def voxelize_surface(grid: Grid, corners: Floats) -> Mask:
-    """Return the cells that triangles, corners (m, 3, 3), cross; no path through faces of other cells leads past
-    them."""
+    """Return the cells that triangles, corners (m, 3, 3), cross; no path through faces of others leads past."""
     mask = grid.empty_mask()
     for samples in sample_triangles(corners, _SPACING * grid.cell):
         x, y, z = grid.cells_of(samples.points).T

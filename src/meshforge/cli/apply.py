@@ -123,8 +123,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
 def _try_goals(
     given: ApplyArguments, work: ApplyWork, goals: Mapping[str, Goal]
 ) -> tuple[list[str], dict[str, dict[str, Any]], bool, list[batch.CheckCase]]:
-    """What comes of the goals of a project on its own assets: lines of text, JSON by asset, whether one fails, and
-    cases for builds."""
+    """What comes of the goals of a project on its own assets: lines, JSON by asset, whether one fails, cases."""
     from meshforge.cli.goal import describe_goals, have_failed, list_rows  # lazy: as above
 
     assert work.project

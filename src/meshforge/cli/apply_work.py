@@ -86,8 +86,7 @@ Alarms = Mapping[str, Sequence[str]]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NewAssets:
-    """What became of new assets before the program, by id. changes: of their jobs, where what was done is kept beside
-    the project."""
+    """What became of new assets before the program, by id. changes: of their jobs, where these are kept elsewhere."""
 
     results: Mapping[str, NewAssetResult] = field(default_factory=dict)
     changes: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)

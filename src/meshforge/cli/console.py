@@ -195,8 +195,7 @@ class NoteLog:
         self._rows = dict[str, list[str]]()  # the number of each kind, and the assets
 
     def describe(self, asset: str, head: str, notes: Iterable[str], start: str = "    note: ") -> str:
-        """Return what is printed on an asset: a line, with the numbers of notes that were printed already, and new
-        ones."""
+        """Return what is printed on an asset: a line, with the numbers of notes printed already, and new ones."""
         new = list[str]()
         for note in fold_notes(notes):
             row = self._rows.setdefault(_kind_of(note, asset), [f"[{len(self._rows) + 1}]"])
@@ -218,8 +217,7 @@ class NoteLog:
 
 
 def fold_notes(notes: Iterable[str]) -> Iterator[str]:
-    """Yield the notes on one asset; of those that differ in quoted names alone the first, with the names of the
-    others."""
+    """Yield the notes on one asset; of those that differ in quoted names the first, with all the names."""
     kinds = dict[str, list[str]]()
     for note in dict.fromkeys(notes):
         kinds.setdefault(_QUOTED.sub("''", note), []).append(note)

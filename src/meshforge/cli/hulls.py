@@ -1,5 +1,4 @@
-"""Hulls as people type them: names, patterns and numbers with commas between, and extractors; and labels that no asset
-has."""
+"""Hulls as people type them: names, patterns and numbers with commas between, extractors; and unknown labels."""
 
 from __future__ import annotations
 
@@ -81,8 +80,7 @@ def _find_number(part: str, hulls: Collection[str], where: str, listing: str, nu
 
 
 def is_extractor(text: str, hulls: Collection[str]) -> bool:
-    """Return whether a text begins as an extractor does, right or wrong, in whatever case; none of its parts names a
-    hull."""
+    """Return whether a text begins as an extractor does, right or wrong, in any case; no part names a hull."""
     found = re.match(r"\s*(\w+)\s*(\(|$)", text)
     if found is None or any(part.strip() in hulls for part in text.split(",")):
         return False
@@ -131,7 +129,6 @@ def find_absent_labels(
 
 
 def labels_of_project(project: Project) -> Collection[str]:
-    """Return the labels that hulls of a project can have: its vocabulary, or, without one, those that its assets have;
-    and classes."""
+    """Return the labels that hulls of a project can have: its vocabulary, else those that assets have; and classes."""
     every = (project.labels(asset).labels.values() for asset in project.layout.labels.ids)
     return project.words if project.vocabulary else {*project.words, *(one.name for one in chain.from_iterable(every))}

@@ -1,5 +1,4 @@
-"""The `meshforge` command: its list of commands, and how errors reach a person. Other spellings of options are errors
-that name the one."""
+"""The `meshforge` command: its list of commands, and how errors reach a person; misspelt options name the right one."""
 
 import gc
 import io

@@ -121,8 +121,7 @@ Memory = Annotated[
 
 @dataclass(frozen=True, slots=True)
 class ExecutionArguments:
-    """How the work on many assets is done, for commands that say it alike; a timeout of None is the default one, of 0
-    none."""
+    """How the work on many assets is done, for commands that say it alike; timeout: None is the default, 0 none."""
 
     workers: Workers = None
     backend: Backend = "local"

@@ -16,8 +16,7 @@ from meshforge.signoff.question import NO
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
-    """Return a question as it is asked, with its numbered choices, the hulls in question, and where its pictures
-    lie."""
+    """Return a question as it is asked, with numbered choices, the hulls in question, and where its pictures lie."""
     lines = [f"{question.text}  [{question.id}, about {question.seconds:.0f} s]"]
     each = len(pictures) == len(question.choices) > 1
     for number, choice in enumerate(question.choices, 1):
@@ -109,8 +108,7 @@ _REPLIES = TypeAdapter(tuple[ScriptReply, ...])
 
 
 def read_replies(path: Path) -> tuple[ScriptReply, ...]:
-    """Return replies from a file. Raises UsageError, naming the entry, from 0, and the field, where it is not what it
-    should be."""
+    """Return replies from a file. Raises UsageError, naming the entry, from 0, and the field, where one is wrong."""
     try:
         return _REPLIES.validate_json(path.read_bytes().removeprefix(BOM_UTF8))
     except OSError as error:
@@ -122,8 +120,7 @@ def read_replies(path: Path) -> tuple[ScriptReply, ...]:
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
     """Return the reply that a person typed: nothing for the first choice, the number of one from 1 or its id, n for
     none of them, l for later; after it, for a group, those hulls that are something else, as `c=leg`; for a result that
-    is wrong, `RULE:HULL,HULL` for what a rule should have selected, and `HULL=LABEL`. Raises UsageError for anything
-    else."""
+    is wrong, `RULE:HULL,HULL` for what a rule should select, and `HULL=LABEL`. Raises UsageError for anything else."""
     words = line.split()
     if words == ["l"] or not question.choices:
         return ReviewReply(question.id, later=True)

@@ -39,8 +39,7 @@ _FEW_LISTED = 3  # assets that need review and are named beside a question
 
 
 class ReviewSession:
-    """Replies one after the other. found: the family as it stands; taken_back: why some assets are no longer signed
-    off."""
+    """Replies one after the other. found: the family now; taken_back: why some assets are no longer signed off."""
 
     def __init__(self, project: Project, threshold: float) -> None:
         self._project, self._threshold = project, threshold

@@ -183,8 +183,7 @@ def _mode_of(path: Path) -> int:
 
 
 def expand_glob(pattern: str, root: Path | None = None) -> list[str]:
-    """Return what a glob matches, as names from `root`, sorted; under `**`, links are followed, but never in a
-    circle."""
+    """Return what a glob matches, as names from `root`, sorted; under `**`, links are followed, never in a circle."""
     base, stars, rest = _split_at_stars(pattern)
     if not stars:
         return sorted(glob.glob(pattern, root_dir=root))  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)

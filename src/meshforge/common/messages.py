@@ -17,8 +17,7 @@ _UNSAFE = re.compile(
 
 
 def escape_name(text: str) -> str:
-    """Return a name in one line that a terminal only shows: what would control or reorder it becomes `\x1b` or
-    `\u202e`.`."""
+    """Return a name in one line that a terminal only shows: what would control it becomes `\x1b` or `\u202e`."""
     return _UNSAFE.sub(_escape, text)
 
 
@@ -38,8 +37,7 @@ def is_text(name: str) -> bool:
 
 
 def to_text(name: str) -> str:
-    """Return a name of a file in which bytes that are not UTF-8 stand as `\xff`, so that it can be written to a
-    file.."""
+    """Return a name in which bytes that are not UTF-8 stand as `\xff`, so that it can be written to a file."""
     return name if is_text(name) else os.fsencode(name).decode("utf-8", "backslashreplace")
 
 
@@ -71,8 +69,7 @@ def format_share(share: float) -> str:
 
 
 def suggest_name(name: str, available: Iterable[str], otherwise: str | None = None) -> str | None:
-    """Return the remedy for a name that is not available: the nearest one that is; otherwise, where nothing is
-    alike."""
+    """Return the remedy for a name that is not available: the nearest one that is; `otherwise` where none is."""
     like = nearest_name(name, available)
     return f"Did you mean {like!r}?" if like else otherwise
 
@@ -149,8 +146,7 @@ _REMEDIES = {
 
 
 def describe_error(error: Exception, where: str | None = None, fault: str = "please report it") -> str:
-    """Return the message of whatever went wrong, about `where` unless it says; fault: what to do about one of our
-    own."""
+    """Return the message of whatever went wrong, about `where` unless it says; fault: what to do about ours."""
     match error:
         case MeshForgeError():
             return (error.at(where) if where else error).message

@@ -207,8 +207,7 @@ class Registry(Mapping[str, T], Generic[T]):
 
 
 class Targets(UserDict[str, Any]):
-    """What is built in, by name: each is made by what `module:attribute` names when first asked for, once for all its
-    names."""
+    """What is built in, by name: made by what `module:attribute` names when first asked for, once for all names."""
 
     def __getitem__(self, name: str) -> Any:
         return make_target(self.data[name])
@@ -222,8 +221,7 @@ def make_target(target: str) -> Any:
 
 
 def import_extra(library: str, extra: str, purpose: str) -> Any:
-    """Return an optional library. Raises MeshForgeError that names the extra to install; purpose: what needs it, a
-    subject."""
+    """Return an optional library. Raises MeshForgeError that names the extra to install; purpose: what needs it."""
     try:
         return import_module(library)
     except ImportError as error:

@@ -227,8 +227,7 @@ def describe_exit(code: int | None) -> str:
 
 
 def memory_share(workers: int) -> int | None:
-    """Return an even share [bytes] of the memory that this machine, or this container, has; None where it does not
-    tell."""
+    """Return an even share [bytes] of the memory that this machine, or this container, has; None if unknown."""
     try:
         whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, ValueError, OSError):

@@ -22,8 +22,7 @@ def first_validation_error(error: ValidationError) -> str:
 
 
 def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
-    """Return one complaint of pydantic's, in one line; complaint: one of those that `ValidationError.errors()`
-    lists."""
+    """Return one complaint of pydantic's, in one line; complaint: one that `ValidationError.errors()` lists."""
     kind, about, given = complaint["type"], complaint.get("ctx") or {}, complaint.get("input")
     steps = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in complaint["loc"])
     field = "".join(steps).removeprefix(".")

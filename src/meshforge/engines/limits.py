@@ -127,8 +127,7 @@ def count_polygons_at_vertex(hull: Polytope) -> float:
 
 
 def measure_slenderness(hull: Polytope) -> float:
-    """Return the largest extent, as a multiple of the diameter of the sphere about the centre of mass that fits into
-    it."""
+    """Return the largest extent, as a multiple of the diameter of the sphere about the centre of mass within it."""
     normals = normals_of(hull)
     heights = np.einsum("ij,ij->i", hull.vertices[hull.faces[:, 0]] - hull.centroid, normals)
     inner = float(heights[np.linalg.norm(normals, axis=1) > 0.5].min())

@@ -179,8 +179,7 @@ def evidence_beside_rebuilt(label: Label | None) -> Label | None:
 
 
 def reference_label(label: Label | None) -> str | None:
-    """Return the label that others may be taken from: a person's, that of a step, or one of a file that is not
-    unsure."""
+    """Return the label that others may be taken from: a person's, that of a step, or one of a file, if not unsure."""
     if label is None or label.source not in GIVEN_SOURCES | CERTAIN_SOURCES:
         return None
     return label.name if label.source in CERTAIN_SOURCES or label.confidence >= UNSURE else None

@@ -1,5 +1,4 @@
-"""Labels that follow from all that is said of a family: files, names, people and models weighed together, beside the
-hulls that look alike."""
+"""Labels that follow from all that is said of a family: files, names, people, models and look-alikes together."""
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing

@@ -34,8 +34,7 @@ _DIGITS = 3
 
 
 class LikeMismatchError(UsageError):
-    """A family of another kind was named. kinds: families that ship, the nearest first, and how far half of the hulls
-    are from theirs."""
+    """A family of another kind was named. kinds: families that ship, the nearest first, and the median distance."""
 
     kinds: tuple[tuple[str, float], ...] = ()
 

@@ -23,8 +23,7 @@ MOST_COMPARED = 32
 @dataclass(frozen=True, eq=False)
 class ReferenceFamily:
     """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: with the fine pieces of their
-    surfaces, by id; words: the project's vocabulary; engine: which makes the pieces; lost: why those of some are not
-    known."""
+    surfaces, by id; words: the project's vocabulary; engine: which makes the pieces; lost: why some are not known."""
 
     meshes: Mapping[str, SymbolicMesh]
     pieces: Mapping[str, AssetPieces]

@@ -55,8 +55,7 @@ class Tally:
 
 @dataclass(frozen=True, slots=True)
 class NameContradiction:
-    """A label that no person and no file gave, and the other label whose very word, or a pattern of which, is in a name
-    of the hull."""
+    """A label that no person and no file gave, and another one whose word or pattern is in a name of the hull."""
 
     asset: str
     hull: str

@@ -254,8 +254,7 @@ def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
 
 
 def build_operation(text: TreeReader, tree: Node, registry: OperationRegistry[AnOperation]) -> AnOperation:
-    """Return the operation of an `action` or a `goal` node. Raises ProgramError at its name or at the argument that
-    does not fit."""
+    """Return the operation of an `action` or a `goal` node. Raises ProgramError at its name or a wrong argument."""
     (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
     kind = text.locate_errors(name, lambda: registry.get(name))

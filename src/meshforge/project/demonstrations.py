@@ -69,8 +69,7 @@ def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]
 
 
 def find_unknown_hulls(steps: Iterable[synthesis.Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
-    """Yield the rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it
-    of."""
+    """Yield the rules and names of steps that cannot be meant: no such hull, and none that it could be made of."""
     for step in steps:
         for name in sorted(step.select or ()):
             stem = name.rpartition("~")[0] if step.rule > 1 else name
@@ -172,8 +171,7 @@ def add_answer(store: Store, answer: synthesis.Answer) -> str:
 
 
 def check_answer(store: Store, given: synthesis.Answer) -> files.AnswerEvent:
-    """Return an answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a
-    rule."""
+    """Return an answer as it is kept. Raises ProjectError: no such asset or rule. Its hulls may be made by a rule."""
     store.path(given.asset)
     actions = actions_of(map(store.steps, store.demonstration_ids()))
     if given.rule not in actions:

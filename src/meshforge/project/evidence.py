@@ -30,8 +30,7 @@ def sort_answers(
 def list_accepted(
     store: Store, demos: Mapping[str, synthesis.Demonstration], feedback: Sequence[synthesis.Answer]
 ) -> list[synthesis.Answer]:
-    """Return what rules select on results that were accepted, but for what was said otherwise, or of rules that are
-    others."""
+    """Return what rules select on results that were accepted, but for what was said otherwise, and other rules."""
     known = {(answer.rule, answer.asset) for answer in feedback}
     every = (one for asset, seen in find_accepted_results(store).items() for one in _number(demos, asset, seen))
     return [one for one in every if (one.rule, one.asset) not in known]

@@ -79,8 +79,7 @@ def _read_frame(store: Store, meshes: Mapping[str, SymbolicMesh], program: Progr
 def _stands(
     store: Store, verdict: VerdictEvent, program: Program | None, mesh: SymbolicMesh, now: batch.OutputInputs | None
 ) -> bool:
-    """Whether the output that a person accepted is there, and the program does what it did: selects the same, or
-    made that very output."""
+    """Whether the output that a person accepted is there, and the program selects the same, or made that output."""
     stamp = batch.read_stamp(store.layout.edited, verdict.asset)
     if verdict.output != output_digest(stamp):
         return False

@@ -69,8 +69,7 @@ def _usual(state: FamilyState) -> AssetStatus:
 
 
 def _take_offers(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
-    """Take labels that are there already, in files, and in names while no hull has a label: later propagation hears
-    names, too."""
+    """Take labels that are there already, in files, and in names while no hull has a label: later all is heard."""
     if not bare:
         return None
     ids, offers = {asset.id for asset in bare}, state.find_offers()

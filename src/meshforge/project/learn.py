@@ -15,16 +15,14 @@ from meshforge.store import ProgramRecord, Settings, Store
 
 MOST_ASSETS = 400
 """Of more assets so many are looked at while a program is learned, besides those of which something was said: they are
-all read and edited again after each answer. A variant that one asset in a hundred has is then missed once in fifty
-times."""
+all read and edited again after each answer. A variant that one asset in a hundred has is then missed once in fifty."""
 
 MOST_COMPARED = 100
 """Of more assets so many are looked at, evenly over all: each has to be read."""
 
 
 def select_assets(store: Store) -> tuple[str, ...]:
-    """Return the assets to learn from: all, or of very many those that a person said something about, and some
-    evenly."""
+    """Return the assets to learn from: all, of very many those that a person said something about, and some evenly."""
     feedback, every = store.feedback(), store.assets()
     if len(every) <= MOST_ASSETS:
         return every

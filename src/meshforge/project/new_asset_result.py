@@ -113,8 +113,7 @@ def _span_to_json(span: HullSpan) -> dict[str, Any]:
 
 
 def describe_new(results: Sequence[NewAssetResult]) -> str | None:
-    """Return how many bodies of new assets were rebuilt, and how many hulls likely span parts and were left; None where
-    none."""
+    """Return how many bodies of new assets were rebuilt, and how many that likely span parts were left, if any."""
     bodies, left = sum(len(one.rebuilt) for one in results), sum(len(one.spanning) for one in results)
     rebuilt = [one.asset for one in results if one.rebuilt]
     noun = "body" if bodies == 1 else "bodies"

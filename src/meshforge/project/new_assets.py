@@ -77,8 +77,7 @@ class _Task:
 @dataclass(frozen=True, slots=True)
 class NewAssetOptions:
     """rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named; guess: whether hulls
-    without a label get the likeliest one; write_block: the block in which the files of an asset of the project are
-    written."""
+    without a label get the likeliest one; write_block: the block in which the files of an asset are written."""
 
     rebuild: bool = True
     guess: bool = True

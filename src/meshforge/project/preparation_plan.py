@@ -135,8 +135,7 @@ def dismiss_spanning(store: Store, hulls: Mapping[str, Collection[str]]) -> None
 
 
 def read_piece_engine(store: Store) -> PieceEngine:
-    """Return the engine of the fine pieces by which the hulls of all assets were looked at last, CoACD where they were
-    not."""
+    """Return the engine of the fine pieces by which the hulls of all assets were looked at last, else CoACD."""
     return _read(store).pieces
 
 

@@ -59,8 +59,7 @@ class Project(Store):
         return replace(self, cache=cache or MeshCache())
 
     def add_assets(self, paths: Iterable[str | Path]) -> Self:
-        """Return the project with more assets: files below the folder that ids count from. Raises ProjectError for
-        others."""
+        """Return the project with more assets: files below the folder of the ids. Raises ProjectError for others."""
         with self.lock():
             added = add_assets(self.folder, self.every, paths)
             if away := [asset for asset in added if asset in self.exclusions()]:

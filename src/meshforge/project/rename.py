@@ -153,8 +153,7 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
 
 
 def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: str, new: str) -> str:
-    """The settings with the label's other name in the patterns that say what names mean, in goals, and where it is
-    described."""
+    """The settings with the label's other name in patterns of names, in goals, and where it is described."""
     descriptions, table = settings.vlm.descriptions, "vlm.descriptions"
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):

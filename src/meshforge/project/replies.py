@@ -133,8 +133,7 @@ def _repair(store: Store, question: ReviewQuestion, choice: ReviewChoice | None,
 
 
 def has_agreed_labels(store: Store) -> bool:
-    """Return whether labels that sources gave were replaced, so that those of other hulls may follow what a person says
-    of one."""
+    """Return whether labels that sources gave were replaced, so that others may follow what a person says of one."""
     return any(label.given for asset in store.assets() for label in store.labels(asset).labels.values())
 
 

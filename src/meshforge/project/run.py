@@ -127,8 +127,7 @@ class RunWithManualEdits:
 def run_with_manual_edits(
     store: Store, asset: str, mesh: symbolic.SymbolicMesh, program: language.Program | None
 ) -> RunWithManualEdits:
-    """Return an asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot
-    run."""
+    """Return an asset after a program and its corrections; None changes nothing. Raises MeshForgeError."""
     plan = program or language.Program(orient=store.orientation)
     manual_edits = store.manual_edits(asset)
     names = [*plan.templates, *(name for one in manual_edits for name in one.action.templates)]
@@ -246,8 +245,7 @@ def _replace_selections(
 
 
 def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, ...]]:
-    """Return what the program did by itself on results that were looked at and accepted, by asset; of very many
-    some."""
+    """Return what the program did by itself on results looked at and accepted, by asset; of very many some."""
     verdicts = ((asset, some[-1]) for asset, some in store.feedback().verdicts.items() if asset in store.found.ids)
     rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen and not one.meant]
     some = labelling.pick_evenly(rows, MOST_ACCEPTED)

@@ -44,8 +44,7 @@ def format_counts(
 
 
 def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
-    """Return how the family stands: the counts, then why assets need review, the least probable first; need_review:
-    lines at most."""
+    """Return how the family stands: counts, then why assets need review, the least probable first, at most so many."""
     one = found.assessment
     names = one.need_review
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
@@ -169,8 +168,7 @@ def build_run_report(
 def add_result_status(
     assets: Iterable[batch.ReportAsset], found: Status, not_written: Collection[str] = ()
 ) -> list[batch.ReportAsset]:
-    """Return the assets of a project with how sure each result is; alarms of the run take the place of those of a
-    review."""
+    """Return the assets of a project with how sure each result is; alarms of the run replace those of a review."""
     known = {asset.id: asset.result_status for asset in found.assets}
     return [_add_result_status(asset, known[asset.name], asset.name in not_written) for asset in assets]
 

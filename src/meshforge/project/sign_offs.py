@@ -38,8 +38,7 @@ def now_utc() -> datetime:
 
 
 def find_inputs(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, batch.OutputInputs]:
-    """Return the digests of all that decides the edit of each asset that can be read; none where there is no
-    program."""
+    """Return the digests of all that decides the edit of each asset that can be read; none without a program."""
     program = store.program()
     return _digest_edits(store, run.build_task(store, program), execution) if program else {}
 

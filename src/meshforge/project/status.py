@@ -1,5 +1,4 @@
-"""How far a project is: each asset, the program, what is stale, and the next sensible step, with the lines by which
-commands name it."""
+"""How far a project is: each asset, the program, what is stale, and the next sensible step, as commands name it."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field

@@ -72,8 +72,7 @@ class LegendEntry:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullColors:
-    """A colour for each hull (n, 3), sRGB in 0..1, and the legend; hatched, dotted: hulls whose label is not sure, or
-    guessed."""
+    """A colour for each hull (n, 3), sRGB in 0..1, and the legend; hatched, dotted: not sure, guessed."""
 
     colors: Floats
     legend: tuple[LegendEntry, ...] = ()

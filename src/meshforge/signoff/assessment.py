@@ -49,8 +49,7 @@ class Calibration:
     """weights: (len(WEIGHTS),); program, result: what speaks for a program as such, and for one that does what a person
     accepted or meant on an asset [nats]; threshold: the probability from which on an asset is signed off without a
     look; families: on which it rests; risk: the share of the assets of a family that are signed off and wrong, at most,
-    as far as can be expected; goals: what speaks for an edit in a goal that holds after it, by the outcome before
-    [nats]."""
+    as far as can be expected; goals: what speaks for an edit in a goal that then holds, by the one before [nats]."""
 
     weights: Floats
     program: float

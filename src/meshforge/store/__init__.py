@@ -1,5 +1,4 @@
-"""The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
-use case."""
+"""The project folder on disk: its layout, settings, every file read and written, and the lock. It knows no use case."""
 
 from meshforge.common.exports import export_lazily
 

@@ -36,8 +36,7 @@ class QuestionAndReply(JsonFile):
 
 
 class Origin(NamedTuple):
-    """Where an event comes from: the id of the question that it replies to, the name that the person gave, and what was
-    asked and said."""
+    """Where an event comes from: the id of its question, the name that the person gave, and what was asked and said."""
 
     question: str | None = None
     by: str | None = None

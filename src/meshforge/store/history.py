@@ -1,6 +1,5 @@
 """Records changes of a project's files, undoes and redoes them. A kill at any moment leaves the state before or after,
-never one between, once the history is used again: a change is noted before it begins and becomes an entry when it is
-done."""
+never one between, once the history is used again: a change is noted before it begins, and an entry when it is done."""
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

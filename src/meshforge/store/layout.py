@@ -159,8 +159,7 @@ def list_files() -> tuple[ProjectFile, ...]:
 
 
 def identify_file(name: str) -> tuple[ProjectFile, str] | None:
-    """Return the file that a path from a project's folder is, and the id of the asset whose it is; None for another
-    file."""
+    """Return the file that a path from a project's folder is, and the id of its asset; None for another file."""
     found = [(file, asset) for file in list_files() if (asset := file.match(name)) is not None]
     return max(found, key=lambda pair: len(pair[0].name), default=None)
 
@@ -177,8 +176,7 @@ a person has confirmed them."""
 
 
 def read_json(path: Path, model: type[Model]) -> Model | None:
-    """Return what a JSON file holds, None where there is no such file. Raises ProjectError naming the file and the
-    field."""
+    """Return what a JSON file holds, None for no file. Raises ProjectError naming the file and the field."""
     try:
         return model.model_validate_json(path.read_bytes().removeprefix(codecs.BOM_UTF8))
     except FileNotFoundError:

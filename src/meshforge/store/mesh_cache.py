@@ -18,8 +18,7 @@ MOST_MESHES = 400
 @dataclass(frozen=True, eq=False, slots=True)
 class _CacheEntry:
     """An asset as it was read. times: modification [ns] and size of its files; record: the digest of its preparation;
-    seen: the threshold that was set, and what is up; labels: what its files of labels and classes held; mesh: with
-    these."""
+    seen: the threshold set, and what is up; labels: what its files of labels and classes held; mesh: with these."""
 
     times: FileStates
     record: str | None

@@ -238,8 +238,7 @@ class AssetFiles:
         return mesh if self.contact is None else replace(mesh, epsilon=self.contact)
 
     def read_labels(self) -> symbolic.LabelFile:
-        """Return the labels of the asset, and the classes of hulls without one. Raises AssetError where they cannot be
-        read."""
+        """Return its labels, and the classes of hulls without one. Raises AssetError where they cannot be read."""
         return read_labels_file(self.labels).fill(symbolic.read_classes(self.classes))
 
 

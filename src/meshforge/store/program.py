@@ -74,8 +74,7 @@ def parse_action_text(text: str, where: str | Path) -> tuple[language.Action, st
 
 
 def read_steps(path: Path) -> tuple[synthesis.Step, ...]:
-    """Return the steps in a demonstrations file, none where there is no such file. Raises ProjectError for no
-    action."""
+    """Return the steps in a demonstrations file, none where there is none. Raises ProjectError for no action."""
     kept = read_json(path, DemonstrationFile)
     lines = kept.steps if kept else ()
     return tuple(synthesis.Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)

@@ -279,8 +279,7 @@ def _merge_events_by_lines(path: Path) -> None:
 
 
 def find_assets(folder: Path) -> batch.AssetSet:
-    """Return the assets that the settings of a project name. Raises ProjectError where one is gone or lies
-    elsewhere."""
+    """Return the assets that the settings of a project name. Raises ProjectError where one is gone or elsewhere."""
     settings = read_settings(folder)
     base = Path(os.path.normpath(folder / settings.base))
     try:

@@ -1,5 +1,4 @@
-"""signoffs.jsonl: which assets are signed off, and what that rests on; and what was found when the family was looked
-at last."""
+"""signoffs.jsonl: which assets are signed off, and what that rests on; and what the last look found."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -77,8 +76,7 @@ class ConfidenceLine(JsonFile):
         return self.looked_at or (self.probability >= threshold and not self.is_outlier)
 
     def with_alarms(self, alarms: Sequence[str]) -> Self:
-        """Return the same where these alarms are not more than those it knows, or a person looked at it; else an
-        outlier, and by what."""
+        """Return the same where these alarms are none besides those it knows, or a person looked; else an outlier."""
         if self.looked_at or len(alarms) <= sum(reason.kind == "alarm" for reason in self.reasons):
             return self
         others = tuple(reason for reason in self.reasons if reason.kind != "alarm")
@@ -116,7 +114,6 @@ class AssessmentFile(JsonFile):
 
 
 def find_changes(now: OutputInputs, then: OutputInputs) -> tuple[str, ...]:
-    """Return what changed of all that an edit rests on; not how outputs are written, nor the version of this
-    software."""
+    """Return what changed of all that an edit rests on; not how outputs are written, nor this software."""
     kept: Mapping[str, object] = {"settings": then.settings, "software": then.software}
     return now.model_copy(update=dict(kept)).changes(then)

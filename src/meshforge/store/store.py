@@ -45,8 +45,7 @@ class Store:
 
     @classmethod
     def open(cls, folder: str | Path) -> Self:
-        """Return the project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is
-        gone."""
+        """Return the project in a folder. Raises ProjectError: none there, wrong settings, or an asset gone."""
         folder = Path(folder).absolute()
         return cls(folder, settings_file.find_assets(folder))
 
@@ -56,8 +55,7 @@ class Store:
         return Layout(self.folder)
 
     def lock(self) -> AbstractContextManager[None]:
-        """Return the project's lock, under which files are read, changed and written; a thread may take it again and
-        again."""
+        """Return the project's lock, under which files are read, changed and written; a thread may take it again."""
         return batch.hold_lock(self.layout.lock, str(self.folder), again=True)
 
     # Settings
@@ -313,8 +311,7 @@ class Store:
     # What a person said
 
     def feedback(self) -> Feedback:
-        """Return what all that people said comes to. Raises ProjectError, naming file and line, where it cannot be
-        read."""
+        """Return what all that people said comes to. Raises ProjectError, naming file and line."""
         return load_feedback(self.layout)
 
     def add_events(self, *events: Event) -> None:

@@ -89,8 +89,7 @@ def view_action(action: Action, label: str | None) -> wire.ActionView:
 
 
 def read_action(call: wire.ActionCall, where: str) -> tuple[Action, str | None]:
-    """Return the action that the page sends, and the label that it gives. Raises ProjectError, about `where`, for
-    none."""
+    """Return the action that the page sends, and its label. Raises ProjectError, about `where`, for none."""
     given = {name: value for name, value in call.arguments.items() if value not in ("", False)}
     text = f"{call.name}({', '.join(_show_arguments(call.name, given, where))})" if given else call.name
     text = f"Each({text})" if call.each else text

@@ -27,8 +27,7 @@ class LabelChanges:
         self._no_change = self._history.entries[:entries], best
 
     def propagation_state(self, cards: Sequence[wire.Card]) -> PropagationState | None:
-        """Return what is known of the last time that all hulls were labelled; None where there was none, or where it is
-        undone."""
+        """Return what is known of the last time that all hulls were labelled; None where it is undone or never was."""
         done = self._history.entries
         found = self._last_run(done)
         if found is None:

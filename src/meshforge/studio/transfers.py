@@ -63,8 +63,7 @@ class Uploads:
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
     def keep_readable(self, workers: Workers) -> _Readable:
-        """Return the assets that can be read; the files of the others are removed. Raises ProjectError where there is
-        none."""
+        """Return the assets that can be read; files of others are removed. Raises ProjectError where there is none."""
         home, _ = self.list_files()
         sent = find_assets(workers, home)
         for name in sent.unreadable:

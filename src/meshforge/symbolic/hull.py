@@ -25,14 +25,12 @@ CLASS_SOURCES = frozenset({"step", "class"})
 CERTAIN_SOURCES = HUMAN_SOURCES | {"step"}
 """Sources of labels that follow from what a person said or showed of this hull."""
 NO_PART = "no part"
-"""The name of the label which says that a hull is none of the parts; it is in no vocabulary, and no program asks for
-it."""
+"""The name of the label which says that a hull is none of the parts; it is in no vocabulary and no program."""
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def name_class(rules: Collection[int]) -> str:
-    """Return the made name of the hulls that rules of some numbers take: `part_a` for those of rule 1, `part_ac` for
-    those of 1 and 3."""
+    """Return the made name of the hulls that rules of some numbers take: `part_a` for rule 1, `part_ac` for 1 and 3."""
     if not rules:
         return NO_PART
     if max(rules) > len(_LETTERS):

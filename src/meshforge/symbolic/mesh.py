@@ -278,8 +278,7 @@ def contact_graph(
 
 
 def find_unchanged(before: SymbolicMesh, after: SymbolicMesh) -> frozenset[str]:
-    """Return the names of the hulls that two meshes have alike, each coordinate within a millionth of the larger
-    diagonal."""
+    """Return the names of hulls that two meshes have alike, coordinates within a millionth of the larger diagonal."""
     near = 1e-6 * max(before.diagonal, after.diagonal)
     both = (name for name in before.index if name in after.index)
     return frozenset(n for n in both if is_same_shape(before.hull_of(n).shape, after.hull_of(n).shape, near))

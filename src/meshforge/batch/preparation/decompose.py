@@ -181,8 +181,7 @@ def _describe_no_match(only: Sequence[str], there: Sequence[str]) -> str | None:
 
 
 def matches_only(name: str, only: Sequence[str]) -> bool:
-    """Return whether a piece or body is one of these names, or matches one of these patterns; all are where there are
-    none."""
+    """Return whether a piece or body is one of these names or patterns; all are where there are none."""
     return not only or any(name == pattern or fnmatchcase(name, pattern) for pattern in only)
 
 

@@ -169,8 +169,7 @@ def _find_bare_bodies(asset: Asset) -> Iterable[DecompositionSource]:
 
 
 def merge_visuals(asset: Asset, body: str) -> Surface | None:
-    """Return all that a body shows, None where that is nothing; what belongs to no body counts for one that is
-    alone."""
+    """Return all that a body shows, None where that is nothing; what has no body counts for one that is alone."""
     alone = len(asset.bodies) == 1
     own = [s for s in asset.visuals if len(s.faces) and (s.body == body or (s.body is None and alone))]
     return _stack(own, body)

@@ -39,8 +39,7 @@ def read_prepared(path: Path, folder: Path | None) -> symbolic.Asset:
 
 
 def prepare_from_folder(asset: symbolic.Asset, folder: Path) -> symbolic.Asset:
-    """Return an asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of
-    date."""
+    """Return an asset as it was read, after the preparation in a folder. Raises AssetError: damaged or outdated."""
     preparation = read_preparation(folder)
     return apply_preparation(asset, preparation) if preparation else asset
 
@@ -70,8 +69,7 @@ def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
 
 
 def record_digest(folder: Path) -> str | None:
-    """Return the digest of what was done, hulls included, None where nothing was; an empty text where it cannot be
-    read."""
+    """Return the digest of what was done, hulls included, None where nothing was; empty where it cannot be read."""
     try:
         return content_digest(folder / RECORD_FILE)
     except (FileNotFoundError, NotADirectoryError):

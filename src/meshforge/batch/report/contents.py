@@ -166,8 +166,7 @@ def read_again(
 
 
 def read_job(job: AssetJob) -> SymbolicMesh:
-    """Return an asset with its labels, after what is done to it before the program. Raises as `load` and
-    `read_prepared`."""
+    """Return an asset with its labels, as it is prepared. Raises as `load` and `read_prepared`."""
     mesh = SymbolicMesh.of(read_prepared(job.path, job.preparation)) if job.preparation else load(job.path)
     return transfer_labels(job.read_labels(), mesh).mesh
 

@@ -45,8 +45,7 @@ class Clear(Goal):
         return None
 
     def _group(self, subject: GoalSubject, *, after: bool) -> dict[str | None, list[Hull]]:
-        """The hulls from which the part keeps its distance, by label, since names change; of another selection, in one
-        group."""
+        """The hulls from which the part keeps its distance, by label, since names change; else in one group."""
         if self.other is not None:
             return {None: list(subject.select_after(self.other) if after else subject.select(self.other))}
         part = {hull.name for hull in (subject.select_after(self.part) if after else subject.select(self.part))}

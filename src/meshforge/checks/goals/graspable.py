@@ -147,8 +147,7 @@ def find_grips(
 def _fit_fingers(
     section: Aabb, rest: Sequence[Hull], inward: Floats, across: int, opening: float, half: float, margin: float
 ) -> Place | None:
-    """Where fingers take a bar that come along an axis, as deep as nothing is in their way; None where they do not get
-    over it."""
+    """Where fingers take a bar that come along an axis, as deep as is free; None where they do not get over it."""
     axis = int(np.abs(inward).argmax())
     third = 3 - axis - across
     reach = np.zeros(3)

@@ -1,2 +1,1 @@
-"""How an asset behaves in MuJoCo: at rest on a plane; and at given places: what stands, carries, holds, can be gripped,
-passed and moved."""
+"""How an asset behaves in MuJoCo: at rest on a plane; what stands, carries, holds, can be gripped, passed and moved."""

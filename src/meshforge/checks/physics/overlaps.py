@@ -110,8 +110,7 @@ def _find_joints_between(
 
 
 def measure_near(joint: Joint, moving: Sequence[Hull]) -> float:
-    """Return the distance from the axis of a joint within which what it turns may be in its neighbour [m]; below 0 for
-    one that slides."""
+    """Return how far from the axis of a joint what it turns may be in its neighbour [m]; below 0 where it slides."""
     turns = joint.kind in ("revolute", "ball")
     return NEAR_AXIS * max(joint.measure_distance(hull.vertices) for hull in moving) if turns else -1.0
 
@@ -241,8 +240,7 @@ class JointSweep:
 
 
 def list_sweeps(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[JointSweep]:
-    """Yield each joint that has limits and follows no other one, to either side; least: how deep hulls are in each
-    other [m]."""
+    """Yield each joint that has limits and follows no other one, to either side; least: the depth [m]."""
     rules, hulls = ContactRules(mesh), mesh.hulls
     pairs = ((i, j) for i in range(len(hulls)) for j in range(i) if hulls[i].body != hulls[j].body)
     apart = {frozenset((hulls[i].name, hulls[j].name)) for i, j in pairs if not rules.may_touch(i, j)}

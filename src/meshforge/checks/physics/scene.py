@@ -20,8 +20,7 @@ Motion = Literal["hinge", "slide"]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Place:
-    """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m], as a use says; axes: the columns of
-    a rotation (3, 3)."""
+    """Where something is tried. at: (3,) [m]; size: (3,) along the axes [m]; axes: columns of a rotation (3, 3)."""
 
     at: Floats
     size: Floats
@@ -38,8 +37,7 @@ def frame_of_axis(axis: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Failure:
-    """Why something does not work, in a sentence. hulls: names of those at fault; objects: what was tried there, where
-    it was put."""
+    """Why something does not work, in a sentence. hulls: names of those at fault; objects: what was tried, where."""
 
     text: str
     hulls: tuple[str, ...] = ()
@@ -103,8 +101,7 @@ def add_hulls(spec: Any, body: Any, hulls: Iterable[Hull], object_side: bool = F
 
 
 def add_shape(spec: Any, body: Any, name: str, shape: Shape, object_side: bool = True, **fields: Any) -> Any:
-    """Add a shape to a body as a geom, and return that; objects touch hulls, not each other. None where the shape has
-    no volume."""
+    """Add a shape to a body as a geom, and return that; objects touch hulls alone. None where it has no volume."""
     import mujoco  # lazy: as above
 
     fields |= {"contype": int(object_side), "conaffinity": int(not object_side)}

@@ -134,8 +134,7 @@ def mass_keys(asset: Asset, body: Body) -> Json:
 
 
 def says_mass(node: Json) -> bool:
-    """Return whether a node says what it weighs as a body: in KHR's `motion`, else in OMI's, of older files the
-    extension."""
+    """Return whether a node says what it weighs as a body: in KHR's `motion`, or OMI's, if older the extension."""
     khr, omi = extension(node, KHR) or {}, extension(node, OMI) or {}
     motion = khr.get("motion", omi.get("motion", omi))
     return isinstance(motion, dict) and "mass" in motion

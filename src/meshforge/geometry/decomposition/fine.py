@@ -143,8 +143,7 @@ def _list_regions(solid: _Solid) -> list[_Solid]:
 
 
 def _scale_settings(settings: engines.DecomposeSettings, size: Floats, whole: Floats) -> engines.DecomposeSettings:
-    """The settings of a region of some extents (3,) [m] of a solid of others, so that they mean for it what they mean
-    for the solid."""
+    """The settings of a region of some extents (3,) [m] of a solid of others, so that they mean the same for it."""
     if isinstance(settings, engines.HullSettings):
         return settings
     if isinstance(settings, engines.CoacdSettings):

@@ -171,8 +171,7 @@ def _stop_on_signal() -> Iterator[None]:
 
 
 def build_app(host: Host, token: str, page: Path) -> ASGIApp:
-    """Return the web application of a studio. page: the folder of the built page. Raises MeshForgeError as
-    `open_page`."""
+    """Return the web application of a studio; page: that of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.host = host
     for module in (routes, start, connection):

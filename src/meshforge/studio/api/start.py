@@ -54,8 +54,7 @@ async def put_file(start: CurrentStart, request: Request, path: str) -> UploadRe
 
 @router.post("/files")
 def look_at_files(start: CurrentStart) -> AssetsFound:
-    """Return the assets among the files that were sent; where one cannot be taken, all are thrown away, with an
-    error."""
+    """Return the assets among the files that were sent; where one cannot be taken, all go, with an error."""
     return start.look_at_upload()
 
 

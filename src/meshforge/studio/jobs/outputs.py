@@ -178,8 +178,7 @@ def start_check(session: Session) -> Job:
 
 
 def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
-    """Return the line of one output: the rules that do not hold, without limits of engines, or why it was not
-    checked."""
+    """Return the line of one output: the rules that do not hold, without limits of engines, or why it is not known."""
     if isinstance(found, str):
         return JobLine(asset=asset, status="failed", text=found)
     rules = dict.fromkeys(fault.rule for fault in found if fault.engine is None)

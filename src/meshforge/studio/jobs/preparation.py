@@ -109,8 +109,7 @@ def _count_pieces(progress: JobProgress) -> Iterator[tuple[Path, ExecutionOption
 
 
 def choose_decomposition(project: Project, request: DecomposeOptions) -> DecompositionPlan:
-    """Return how assets are decomposed: where nothing is asked for, as the project's other ones, so that it stays clear
-    how new ones are."""
+    """Return how assets are decomposed: if nothing is asked for, as the others, so that how new ones are is clear."""
     plan = read_preparation_plan(project).decompose if request.method is None else ()
     if len(plan) == 1 and not plan[0].only:
         return plan[0]
@@ -129,8 +128,7 @@ def _decompose_line(result: PreparationResult) -> JobLine:
 
 
 def start_rebuild(session: Session, request: RebuildJob) -> Job:
-    """Start to rebuild bodies of which hulls span parts, or only to find these; each asset is one edit, all are undone
-    at once."""
+    """Start to rebuild bodies of which hulls span parts, or only to find these; one edit an asset, undone at once."""
     project, group, bodies = session.project, uuid4().hex, request.bodies
     session.check_assets(*(bodies or ()))
 

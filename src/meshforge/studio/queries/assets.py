@@ -37,8 +37,7 @@ _DRAW_VERSION = "1"
 
 
 def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetView:
-    """Return an asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical
-    frame."""
+    """Return an asset as it is prepared; mesh: its mesh. Contacts are those in the canonical frame."""
     source = mesh.asset
     if source is None:
         raise MeshForgeError("this mesh was made in memory and has no file")
@@ -110,8 +109,7 @@ def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None 
 
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
-    """Return whether Y still points up after an orientation: the file or the project says so, and no landmark says what
-    +Z is."""
+    """Return whether Y still points up after an orientation: file or project say so, and no landmark says what Z is."""
     return not (orient and orient.names_z) and rendering.up_axis(mesh) == "Y"
 
 
@@ -179,6 +177,5 @@ def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str, u
 
 
 def output_picture_digest(picture: str, output: str) -> str:
-    """Return a digest of all that decides how an output is drawn. picture: of the asset; output: the digest of its
-    files."""
+    """Return a digest of all that decides how an output is drawn. picture: of the asset; output: that of its files."""
     return text_digest(f"{picture} {output}")

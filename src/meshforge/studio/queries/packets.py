@@ -51,16 +51,14 @@ def hull_rows(hulls: Iterable[Hull]) -> list[PacketRow]:
 
 
 def pack_shapes(header: Wire, rows: Sequence[PacketRow]) -> bytes:
-    """Return a packet as `ShapesHeader` describes it; header: one of these, or a message with the same `rows` and
-    more."""
+    """Return a packet as `ShapesHeader` describes it; header: one of these, or a message with `rows` and more."""
     vertices = [np.asarray(drawn.vertices, "<f4").tobytes() for _, drawn in rows]
     faces = [np.asarray(drawn.faces, "<u4").tobytes() for _, drawn in rows]
     return frame_packet(header.model_dump_json().encode(), *vertices, *faces)
 
 
 def frame_packet(header: bytes, *parts: bytes) -> bytes:
-    """Return the length of a JSON header as uint32, the header padded with spaces to whole words, and what follows
-    it."""
+    """Return the length of a JSON header as uint32, the header padded with spaces to whole words, and the rest."""
     padded = header + b" " * (-len(header) % _ALIGNED)
     return b"".join([len(padded).to_bytes(4, "little"), padded, *parts])
 

@@ -76,8 +76,7 @@ def build_project_view(
     new: wire.NewAssetsView | None = None,
     ask_up: str | None = None,
 ) -> wire.ProjectView:
-    """Return the project as the page shows it. problem, lost, propagated, new, ask_up: see the fields of
-    `ProjectView`."""
+    """Return the project as the page shows it. problem, lost, propagated, new, ask_up: as in `ProjectView`."""
     settings = project.settings
     return wire.ProjectView(
         name=settings.name,

@@ -161,8 +161,7 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
 
 
 def read_stamps(project: Project) -> FileStamps:
-    """Return the stamps of a project's files, of those of its assets, and of the folders of assets, where new ones
-    come."""
+    """Return the stamps of a project's files, of those of its assets, and of their folders, where new ones come."""
     folder = project.folder
     assets = [file for path in project.found.paths for file in _source_files(path)]
     homes = {path.parent for path in project.found.paths}

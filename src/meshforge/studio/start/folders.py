@@ -30,8 +30,7 @@ _ABSOLUTE = "Type the whole path, as /home/me/assets or ~/assets."
 
 
 def parse_path(text: str, what: str = "the folder") -> Path:
-    """Return the absolute path that a person typed; `~` is the home folder. Raises UsageError: empty, relative, or no
-    path."""
+    """Return the absolute path that a person typed; `~` is home. Raises UsageError: empty, relative, or no path."""
     text = text.strip()
     if not text:
         raise UsageError(f"{what} has no name", remedy=_ABSOLUTE)
@@ -174,8 +173,7 @@ def look_at_folder(workers: Workers, folder: Path) -> AssetsFound:
 
 
 def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: str) -> AssetsFound:
-    """Return what some assets hold, as far as they can be read in a few seconds. name: what the project may be
-    called."""
+    """Return what some assets hold, as far as they can be read in a few seconds. name: of the project."""
     looks = _look_at_some(workers, paths)
     problems = [look.problem for look in looks if look.problem]
     return AssetsFound(

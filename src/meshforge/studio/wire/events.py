@@ -13,8 +13,7 @@ from meshforge.studio.wire.start import StartView
 
 
 class Problem(Wire):
-    """An error. where: what it is about; conflict: the change was based on an old state; the page shows the present one
-    and asks again."""
+    """An error. where: what it is about; conflict: the change was based on an old state; the page asks again."""
 
     message: str
     where: str | None = None

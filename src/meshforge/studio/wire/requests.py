@@ -51,8 +51,7 @@ class HullsOfAsset(Wire):
 
 class SimilarView(Wire):
     """Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
-    step may take more; unread: assets that could not be looked in; passed_over: how many were not, as there are too
-    many."""
+    step may take more; unread: assets that could not be looked in; passed_over: how many more there are."""
 
     found: tuple[HullsOfAsset, ...]
     step: int
@@ -62,8 +61,7 @@ class SimilarView(Wire):
 
 
 class UploadReceipt(Wire):
-    """An upload is stored. names: the paths of asset files; problems: why other assets of it cannot be read, and were
-    left out."""
+    """An upload is stored. names: the paths of asset files; problems: why other assets were left out."""
 
     names: tuple[str, ...]
     problems: tuple[str, ...] = ()
