@@ -154,9 +154,7 @@ def test_nothing_to_undo_is_no_error(studio: Studio) -> None:
         ("dance", {}, "dance"),
     ],
 )
-def test_a_wrong_edit_is_one_message_and_writes_nothing(
-    studio: Studio, kind: str, fields: dict[str, Any], about: str
-) -> None:
+def test_a_wrong_edit_is_a_message_and_no_write(studio: Studio, kind: str, fields: dict[str, Any], about: str) -> None:
     before = kept(studio)
     answer = studio.post("/api/edit", {"kind": kind, **fields})
     assert answer.status_code in (400, 404, 409)

@@ -109,9 +109,7 @@ def test_a_job_that_is_cancelled_stops_and_leaves_whole_outputs(studio: Studio) 
     assert run(studio, kind="apply")["state"] == "done"
 
 
-def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question_put_off_keeps_that(
-    studio: Studio,
-) -> None:
+def test_what_is_sure_is_signed_off_once_written_and_undo_of_a_question_put_off_keeps_that(studio: Studio) -> None:
     hello = studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
     question = hello["assessment"]["question"]
     project = Project.open(home(studio))

@@ -33,9 +33,7 @@ Is(leg)  => Each(Merge)
 
 
 @pytest.mark.long
-def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
-) -> None:
+def test_seventy_are_signed_off_by_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser) -> None:
     monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))  # no projects of other tests among the recent ones
     source, folder = tmp_path / "chairs", tmp_path / "projects" / "chairs"
     truth, _ = write_chairs(source, draw_shapes(COUNT), FIVE)

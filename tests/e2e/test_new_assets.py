@@ -28,9 +28,7 @@ def project(tmp_path: Path) -> Project:
     return Project.open(project.folder)
 
 
-def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(
-    project: Project, tmp_path: Path, browser: Browser
-) -> None:
+def test_a_run_rebuilds_bodies_of_new_assets_undo_undoes(project: Project, tmp_path: Path, browser: Browser) -> None:
     shutil.copytree(project.folder, tmp_path / "by_command")
     with visiting(tmp_path, project, browser) as (studio, person):
         person.press("Alt+4")

@@ -60,9 +60,7 @@ def test_the_walk_goes_from_the_least_sure_up_until_every_label_is_given(tmp_pat
 
 
 @pytest.mark.parametrize("latency", [0, 400])
-def test_a_click_paints_look_alikes_and_labelling_all_at_once_sees_them(
-    tmp_path: Path, browser: Browser, latency: int
-) -> None:
+def test_a_click_paints_look_alikes_and_labelling_all_sees_them(tmp_path: Path, browser: Browser, latency: int) -> None:
     """Also while the strokes are still on their way to the server."""
     project = four_legged(tmp_path, words=("alpha", "beta", "gamma"))
     legs = dict.fromkeys(LEGS, Label("beta"))

@@ -52,9 +52,7 @@ def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_
     assert sorted(path.name for path in source.iterdir()) == ["table_01.obj", "table_02.obj"]
 
 
-def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(
-    studio: Studio, tmp_path: Path, browser: Browser
-) -> None:
+def test_assets_without_hulls_are_decomposed_part_by_part(studio: Studio, tmp_path: Path, browser: Browser) -> None:
     write_bare_stool(tmp_path / "stools", "a")
     project = tmp_path / "project"
     with windows(browser):

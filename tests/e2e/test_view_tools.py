@@ -90,9 +90,7 @@ def test_hidden_hulls_are_counted_over_the_view_until_all_are_shown(studio: Stud
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1024, 768), (960, 600)])
-def test_tools_are_in_one_row_and_the_rest_behind_a_button(
-    studio: Studio, browser: Browser, width: int, height: int
-) -> None:
+def test_tools_are_in_one_row_the_rest_in_a_menu(studio: Studio, browser: Browser, width: int, height: int) -> None:
     person = _person(browser, studio, width, height)
     bar = person.page.get_by_role("toolbar", name="View")
     box = bar.bounding_box()

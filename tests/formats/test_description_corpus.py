@@ -21,9 +21,7 @@ WORLDS = {"scenes_robots/pybullet_data/kiva_shelf/model.sdf"}
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("suffix", "home", "least"), [(".urdf", urdf_sample, 35), (".sdf", sdf_sample, 45)])
-def test_every_real_file_is_read_or_refused_for_its_own_fault(
-    tmp_path: Path, suffix: str, home: ModuleType, least: int
-) -> None:
+def test_real_files_are_read_or_refused_for_faults(tmp_path: Path, suffix: str, home: ModuleType, least: int) -> None:
     root, committed = corpus(), parse(TABLE.read_text(encoding="utf-8"))
     paths = {path.relative_to(root).as_posix(): path for path in sorted(root.rglob(f"*{suffix}"))}
     assert len(paths) >= least

@@ -43,9 +43,7 @@ def home(key: str, folder: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_unedited_models_come_back_byte_for_byte_and_compile_to_the_same(
-    assets: dict[str, Asset], tmp_path: Path
-) -> None:
+def test_unedited_models_come_back_byte_for_byte_and_compile_alike(assets: dict[str, Asset], tmp_path: Path) -> None:
     for key, asset in whole(assets).items():
         path, output = write(asset, home(key, tmp_path))
         assert path.read_bytes() == asset.path.read_bytes()

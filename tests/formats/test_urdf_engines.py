@@ -67,9 +67,7 @@ def test_pybullet_sees_no_difference_in_an_unedited_file(asset: Asset, tmp_path:
 
 
 @each
-def test_pybullet_finds_masses_contacts_joints_and_visuals_of_an_edited_file_as_before(
-    asset: Asset, tmp_path: Path
-) -> None:
+def test_pybullet_finds_masses_contacts_joints_and_visuals_of_an_edit_as_before(asset: Asset, tmp_path: Path) -> None:
     edit = edited(asset)
     before = bullet(asset.path)
     after = bullet(put(write(edit), tmp_path / "out" / "edited.urdf"))
@@ -80,9 +78,7 @@ def test_pybullet_finds_masses_contacts_joints_and_visuals_of_an_edited_file_as_
 
 
 @each_flat
-def test_mujoco_finds_each_hull_of_an_edited_file_in_its_place_and_the_masses_as_before(
-    asset: Asset, tmp_path: Path
-) -> None:
+def test_mujoco_finds_each_hull_of_an_edit_in_its_place_and_the_masses_as_before(asset: Asset, tmp_path: Path) -> None:
     edit = edited(asset)
     path = put(write(edit), tmp_path / "out" / "edited.urdf")
     before, after = mujoco_model(asset.path), mujoco_model(path)

@@ -54,7 +54,7 @@ def test_no_hole_that_a_peg_enters_is_closed_in_silence(
     noise=st.floats(0.0, 0.005),
     seed=st.integers(0, 999),
 )
-def test_rounded_and_rough_hulls_stay_hulls(
+def test_rough_ones_stay_hulls(
     points: list[tuple[float, float, float]], radius: float, noise: float, seed: int
 ) -> None:
     ball = np.asarray(surface(Manifold.sphere(radius, 16))[0])

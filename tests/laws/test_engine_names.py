@@ -56,9 +56,7 @@ def named(asset: Asset, names: EngineName, suffix: str) -> Iterator[SaveResult]:
 @pytest.mark.parametrize(("names", "suffix"), MADE)
 @examples(20)
 @given(asset=assets())
-def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
-    names: EngineName, suffix: str, asset: Asset
-) -> None:
+def test_hulls_read_back_in_place_each_under_the_name_it_has(names: EngineName, suffix: str, asset: Asset) -> None:
     with named(asset, names, suffix) as saved:
         after = {geom.name: geom.shape for geom in read(saved.path).geoms}
         again = saved.path.read_bytes()

@@ -170,9 +170,7 @@ _SHAPES = {
     ],
 )
 @pytest.mark.parametrize("shape", _SHAPES)
-def test_shapes_of_all_kinds_keep_to_their_budget_and_grow_by_little(
-    shape: str, budget: HullBudget, share: float
-) -> None:
+def test_shapes_of_all_kinds_keep_their_budget_and_grow_little(shape: str, budget: HullBudget, share: float) -> None:
     hull = convex_hull(_SHAPES[shape])
     found = enclose(hull, budget)
     assert found is not None

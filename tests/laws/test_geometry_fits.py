@@ -62,9 +62,7 @@ def outside(points: Floats, shape: Box | Cylinder | Capsule | Sphere) -> float:
 
 @LAW
 @given(points=clouds(), fit=st.sampled_from([tight_box, tight_cylinder, tight_capsule]))
-def test_a_tight_shape_holds_its_points(
-    points: Floats, fit: Callable[[Floats], Box | Cylinder | Capsule | Sphere]
-) -> None:
+def test_tight_shapes_hold_points(points: Floats, fit: Callable[[Floats], Box | Cylinder | Capsule | Sphere]) -> None:
     rounding = np.spacing(np.abs(points).max())  # of points far from the origin it is more than their size allows
     assert outside(points, fit(points)) <= max(1e-9 * float(np.ptp(points, axis=0).max()), 4 * rounding)
 
@@ -152,9 +150,7 @@ def test_mapped_shapes_together_have_the_target_box(a: Shape, b: Shape, target: 
 
 @LAW
 @given(shape=shapes(), point=generators(), normal=directions())
-def test_the_parts_of_a_cut_are_hulls_that_make_up_the_whole(
-    shape: Shape, point: np.random.Generator, normal: Floats
-) -> None:
+def test_the_parts_of_a_cut_are_hulls_and_the_whole(shape: Shape, point: np.random.Generator, normal: Floats) -> None:
     whole = shape.tessellate()
     at = shape.centroid + point.normal(size=3) * 0.2 * whole.aabb.size
     parts = cut(shape, at, normal)

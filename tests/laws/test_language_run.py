@@ -48,9 +48,7 @@ def assert_sound(shape: Shape) -> None:
 
 @given(meshes(), programs(VOCABULARY, st.none()))
 @examples(100)
-def test_every_hull_that_is_made_is_sound_and_one_that_no_rule_touches_is_the_very_same_object(
-    mesh: SymbolicMesh, program: Program
-) -> None:
+def test_every_hull_made_is_sound_one_that_no_rule_touches_is_the_same(mesh: SymbolicMesh, program: Program) -> None:
     if program.labels_asked and not mesh.labels:
         return
     result = program.run(mesh, TEMPLATES)

@@ -22,9 +22,7 @@ def box(middle: tuple[float, float, float], half: tuple[float, float, float]) ->
 
 
 @given(st.lists(boxes, min_size=1, max_size=7), st.data())
-def test_each_piece_is_in_one_group_of_its_kind_and_hulls_hold_their_pieces(
-    pieces: list[Polytope], data: st.DataObject
-) -> None:
+def test_each_piece_is_in_one_group_of_its_kind_within_its_hull(pieces: list[Polytope], data: st.DataObject) -> None:
     kinds = np.array([data.draw(st.integers(0, 1)) for _ in pieces])
     groups = merge_pieces(pieces, kinds)
     assert sorted(place for group in groups for place in group.members) == list(range(len(pieces)))

@@ -73,9 +73,7 @@ def test_an_edited_obj_reads_back_as_the_edit_under_the_same_names(text: str, da
 
 @examples(60)
 @given(kind=st.sampled_from(sorted(WRITERS)), count=st.integers(1, 4), data=st.data())
-def test_an_edited_file_without_names_says_what_its_hulls_are_called(
-    kind: str, count: int, data: st.DataObject
-) -> None:
+def test_an_edited_file_without_names_says_how_hulls_are_called(kind: str, count: int, data: st.DataObject) -> None:
     soup = together(*(box((3 * k, 0, 0), (1 + k, 1, 1)) for k in range(count)))
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"a{kind}"

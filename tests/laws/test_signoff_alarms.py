@@ -109,9 +109,7 @@ def test_shares_and_ratios_do_not_depend_on_the_scale(edit: tuple[SymbolicMesh, 
 
 @FEW
 @given(edits(), st.floats(-np.pi, np.pi))
-def test_volumes_and_numbers_do_not_depend_on_how_an_asset_is_turned(
-    edit: tuple[SymbolicMesh, SymbolicMesh], angle: float
-) -> None:
+def test_volumes_and_numbers_do_not_depend_on_a_turn(edit: tuple[SymbolicMesh, SymbolicMesh], angle: float) -> None:
     one, other = measure_edit(*edit), measure_edit(*(_turn(mesh, angle) for mesh in edit))
     assert (other.hulls_before, other.hulls_after, other.removed) == (one.hulls_before, one.hulls_after, one.removed)
     assert other.volume_before == pytest.approx(one.volume_before)

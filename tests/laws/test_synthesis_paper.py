@@ -94,9 +94,7 @@ def test_a_repair_is_the_smallest_of_all_relabelings_of_suspects(
 
 @examples(40)
 @given(batches, st.integers(0, 2**24 - 1), st.integers(0, 2))
-def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
-    batch: list[SymbolicMesh], selections: int, eta: int
-) -> None:
+def test_what_is_explained_matches_once_corrected(batch: list[SymbolicMesh], selections: int, eta: int) -> None:
     examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
     answer = PaperSearch(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta)).run()
     assume(isinstance(answer, HitWithFixes))

@@ -58,9 +58,7 @@ def test_no_reading_is_missing_and_none_is_too_much(batch: list[SymbolicMesh], s
 
 @examples(60)
 @given(batches, shown_on, extractors(LABELS, max_leaves=3))
-def test_every_reading_selects_what_was_shown_and_what_it_says(
-    batch: list[SymbolicMesh], shown: int, hidden: Extractor
-) -> None:
+def test_readings_select_what_was_shown_and_say(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch, shown, hidden, LABELS, Options())
     weighed = RankedCandidates(search, enumerate_consistent(search, answer, 2))
     seen = set()

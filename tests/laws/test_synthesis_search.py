@@ -53,9 +53,7 @@ def key(extractor: Extractor | None) -> Key | None:
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @examples(60)
 @given(batch=batches, shown=extractors(TWO) | st.integers(0, 2**24 - 1))
-def test_the_answer_is_that_of_a_search_that_tries_everything(
-    options: Options, batch: list[SymbolicMesh], shown: Extractor | int
-) -> None:
+def test_the_answer_is_of_a_full_search(options: Options, batch: list[SymbolicMesh], shown: Extractor | int) -> None:
     """Whether an extractor or anything at all was shown."""
     if isinstance(shown, int):
         selected = [(shown >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)]

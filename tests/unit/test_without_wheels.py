@@ -23,9 +23,7 @@ def test_a_picture_without_embreex_is_an_error_that_names_it(monkeypatch: pytest
         prepare_for_rays(scene, None)
 
 
-def test_without_mujoco_mjcf_and_physics_are_errors_that_name_it(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_without_mujoco_mjcf_and_physics_are_errors_naming_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     path = tmp_path / "box.xml"
     path.write_text('<mujoco><worldbody><geom size="1 1 1" type="box"/></worldbody></mujoco>')

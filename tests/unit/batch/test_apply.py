@@ -257,7 +257,7 @@ def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path
 
 
 @pytest.mark.slow
-def test_a_full_disk_ends_the_run_and_the_next_one_goes_on(
+def test_after_a_full_disk_the_next_run_goes_on(
     assets: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = tmp_path / "whole"

@@ -99,9 +99,7 @@ MASSLESS = """<robot name="r"><link name="a"><collision><geometry><box size="1 1
 <joint name="j" type="continuous"><parent link="a"/><child link="c"/><axis xyz="0 0 1"/></joint></robot>"""
 
 
-def test_a_urdf_that_mujoco_refuses_but_not_as_mjcf_names_the_command_that_converts_it(
-    tmp_path: Path, run: Run
-) -> None:
+def test_a_urdf_that_mujoco_refuses_but_not_as_mjcf_names_the_command_for_it(tmp_path: Path, run: Run) -> None:
     Path("cup.urdf").write_text(MASSLESS)
     told = run("check", "cup.urdf", "--engine", "mujoco")
     assert told.code == 1 and "refuses cup.urdf: mass and inertia of moving bodies must be larger" in told.out
@@ -134,9 +132,7 @@ for finding in check_asset(Path("box.urdf"), Path(), None, task).examination.fin
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("engine", "module"), [("mujoco", "mujoco"), ("bullet", "pybullet")])
-def test_an_engine_that_is_not_installed_is_named_with_how_to_install_it(
-    engine: str, module: str, tmp_path: Path
-) -> None:
+def test_an_engine_that_is_not_installed_is_named_with_its_remedy(engine: str, module: str, tmp_path: Path) -> None:
     (tmp_path / "box.urdf").write_text(
         '<robot name="r"><link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>'
     )
@@ -164,9 +160,7 @@ def test_bullet_is_asked_about_what_it_reads_and_only_its_limits_are_known_of_ot
 
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["xml", "urdf"])
-def test_of_all_broken_files_none_that_mujoco_refuses_is_legal(
-    suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_file_that_mujoco_refuses_is_legal(suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
     paths = sorted(ROOT.glob(f"{'mjcf' if suffix == 'xml' else suffix}/*.{suffix}"))
     assert len(paths) > 50

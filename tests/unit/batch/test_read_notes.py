@@ -32,9 +32,7 @@ def write_model(folder: Path, *meshes: str) -> Path:
     [(["corner"], "1 mesh", None), (["corner", "far"], "2 meshes", "1 mesh")],
     ids=["the only one", "one of two"],
 )
-def test_a_note_that_the_edit_has_dealt_with_is_not_repeated(
-    run: Run, meshes: list[str], before: str, after: str | None
-) -> None:
+def test_a_note_that_the_edit_settles_is_left_out(run: Run, meshes: list[str], before: str, after: str | None) -> None:
     write_model(Path("in"), *meshes)
     assert ANSWERS.format(before) in run("info", "in/m.sdf").out
     assert run("new", "p", "in/m.sdf", "--decompose", "hull", "--workers", "1").code == 0

@@ -53,9 +53,7 @@ def test_a_format_that_simcheck_lacks_is_tried_as_mjcf(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("asset", "others"), [("cups/mug/model.urdf", set()), ("bottles/shampoo.obj", {"RB.001"})], ids=["shown", "drawn"]
 )
-def test_labels_and_purposes_of_a_sample_written_as_usd_pass_simready(
-    tmp_path: Path, asset: str, others: set[str]
-) -> None:
+def test_labels_and_purposes_of_a_sample_as_usd_pass_simready(tmp_path: Path, asset: str, others: set[str]) -> None:
     write_family(family_of(asset.partition("/")[0]), tmp_path / asset.partition("/")[0])
     mesh = load(tmp_path / asset)
     out = save(mesh, tmp_path / "out.usda").path
@@ -73,9 +71,7 @@ def test_labels_and_purposes_of_a_sample_written_as_usd_pass_simready(
 
 
 @pytest.mark.parametrize("name", ["simcheck", "simready"])
-def test_without_the_validator_a_warning_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
+def test_without_the_validator_a_warning_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(validators, "find_version", lambda _: "")
     (finding,) = ask(name, written(tmp_path, CABINET, "cabinet.urdf")).findings
     assert (finding.code, finding.severity, finding.check) == ("MF233", "warning", name)
@@ -83,9 +79,7 @@ def test_without_the_validator_a_warning_says_what_to_install(
     assert "pip install 'meshforge[referees]'" in finding.remedy
 
 
-def test_a_validator_that_fails_or_does_not_end_is_not_taken_for_a_pass(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_validator_that_fails_or_never_ends_is_no_pass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = written(tmp_path, CABINET, "cabinet.urdf")
 
     def run(command: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:

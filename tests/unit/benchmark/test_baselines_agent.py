@@ -49,9 +49,7 @@ def right(bench: Bench) -> str:
     return "".join(f"{rule}\n" for rule in bench.task.program.rules)
 
 
-def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_shown(
-    bench: Bench, agent: Agent, shown: list[Replay]
-) -> None:
+def test_the_model_gets_the_language_as_documented_and_steps(bench: Bench, agent: Agent, shown: list[Replay]) -> None:
     system, user = agent.opening
     told = str(system.parts[0])
     assert all(f"| `{name}" in told for name in ACTIONS)
@@ -79,9 +77,7 @@ def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_sho
 
 
 @pytest.mark.usefixtures("small_pictures")
-def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
-    bench: Bench, agent: Agent, shown: list[Replay], right: str
-) -> None:
+def test_an_agent_that_is_wrong_first_ends_right(bench: Bench, agent: Agent, shown: list[Replay], right: str) -> None:
     wrong = right.replace("Is(misc)", "Is(wall)", 1)
     answers = [block("Is(base => Delete"), block(wrong), block(right)]
     with asking(by_turn(*answers)) as (server, client):
@@ -110,9 +106,7 @@ def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
     "answer",
     ["", "I am sorry, I cannot do that.", "```mf\n```", "```\nlabels wall\n```", "{\x00\ud7ff[", "```mf\nAll =>"],
 )
-def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
-    bench: Bench, taught: Session, agent: Agent, answer: str
-) -> None:
+def test_a_model_that_never_gets_it_fails_in_time(bench: Bench, taught: Session, agent: Agent, answer: str) -> None:
     with asking(lambda asked: answer) as (server, client):
         written = refine(client, agent.opening, agent.try_answer, ROOM)
     assert (written.fits, written.text, written.rounds) == (False, None, ROUNDS)

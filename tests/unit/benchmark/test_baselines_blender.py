@@ -100,9 +100,7 @@ bpy.ops.object.light_add()
         ("bpy.context.scene.collection.objects.link(1)", "TypeError"),
     ],
 )
-def test_a_script_that_misbehaves_is_stopped_and_the_next_one_runs_as_ever(
-    blender: Blender, script: str, why: str
-) -> None:
+def test_a_script_that_misbehaves_is_stopped_and_the_next_runs(blender: Blender, script: str, why: str) -> None:
     assert why in complaint(blender, script)
     assert complaint(blender, script) == complaint(blender, script)
     assert len(made(blender, "pass").hulls) == len(MESH.hulls)
@@ -121,9 +119,7 @@ def test_a_script_that_misbehaves_is_stopped_and_the_next_one_runs_as_ever(
         "import os\nos.chdir('/')\nopen({path!r}.lstrip('/'), 'w')",
     ],
 )
-def test_nothing_is_written_outside_of_a_folder_that_is_gone_afterwards(
-    blender: Blender, tmp_path: Path, script: str
-) -> None:
+def test_nothing_is_written_outside_of_a_folder_that_goes_then(blender: Blender, tmp_path: Path, script: str) -> None:
     path = tmp_path / "written"
     blender.run(script.format(path=str(path)), SCENE)
     assert list(tmp_path.iterdir()) == []
@@ -131,9 +127,7 @@ def test_nothing_is_written_outside_of_a_folder_that_is_gone_afterwards(
 
 
 @needs_blender
-def test_no_key_and_nothing_else_of_ours_is_in_the_environment(
-    blender: Blender, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_key_and_nothing_of_ours_is_in_the_environment(blender: Blender, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENAI_API_KEY", "sk-secret")
     assert PYTHON
     with Blender(PYTHON, QUICK) as one:

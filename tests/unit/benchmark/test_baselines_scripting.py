@@ -91,9 +91,7 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
 
 
 @needs_blender
-def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
-    bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_scripts_that_never_end_fail_everywhere(bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Blender.__init__, "__defaults__", (Limits(seconds=1.0),))
     judged = Session.of_json(judge_script(NAME, TRUE.name, 100, taught.shown, "while True: pass", str(PYTHON)))
     reasons = list(judged.failures.values())

@@ -38,9 +38,7 @@ def without_times(data: Any) -> Any:
 
 @pytest.mark.long
 @pytest.mark.usefixtures("few_meshes")
-def test_a_quick_run_writes_the_page_and_its_pictures(
-    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_quick_run_writes_page_and_pictures(journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(effectiveness, "_QUICK", (TRUE, FLAT, PROPAGATED[0], KIND))
     monkeypatch.setattr(contest, "SHOWN", (1, 3))  # of the few meshes there are
     found = run(PARTS, tmp_path / "out")

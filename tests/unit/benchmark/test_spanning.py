@@ -52,9 +52,7 @@ def test_the_surface_holds_the_parts_in_the_box_of_the_hulls(setting: str, most:
 
 @pytest.mark.parametrize(("family", "hulls"), [("tables", 587), pytest.param("chairs", 148, marks=pytest.mark.long)])
 @pytest.mark.parametrize(("labelled", "most"), [(None, 0), (KNOWN, 3)])
-def test_hulls_of_one_part_are_not_named(
-    tmp_path: Path, family: str, hulls: int, labelled: int | None, most: int
-) -> None:
+def test_hulls_of_one_part_are_left(tmp_path: Path, family: str, hulls: int, labelled: int | None, most: int) -> None:
     case = open_bundled(tmp_path, family, labelled)
     meshes = [case.project.mesh(asset) for asset in case.project.assets()]
     assert sum(len(mesh.hulls) for mesh in meshes) == hulls

@@ -65,9 +65,7 @@ def test_hulls_are_sound_and_carry_the_label_of_the_part_that_they_share_most_wi
 @pytest.mark.parametrize(
     ("group", "count", "calibrating"), [("separate", 600, 201), ("union", 200, 67), ("welded", 200, 67)]
 )
-def test_all_meshes_of_a_set_are_different_also_from_those_of_the_calibration_set(
-    group: str, count: int, calibrating: int
-) -> None:
+def test_all_meshes_of_a_set_differ_also_from_the_calibration_set(group: str, count: int, calibrating: int) -> None:
     sets = [
         [row for name in CATEGORIES for row in samples(name, calibration, SETS[group])] for calibration in (False, True)
     ]
@@ -77,9 +75,7 @@ def test_all_meshes_of_a_set_are_different_also_from_those_of_the_calibration_se
 
 @pytest.mark.parametrize("calibration", [False, True])
 @pytest.mark.parametrize("group", MERGED)
-def test_a_fifth_of_the_hulls_of_a_merged_set_span_parts_and_hardly_any_separate_one(
-    group: str, calibration: bool
-) -> None:
+def test_a_fifth_of_the_hulls_of_a_merged_set_span_parts_and_hardly_any_other(group: str, calibration: bool) -> None:
     assert count_impure(CATEGORIES, group, calibration).share >= 20
     assert count_impure(CATEGORIES, "separate", calibration).share < 2
 

@@ -61,7 +61,7 @@ def test_hulls_that_an_engine_makes_one_of_are_named_and_no_others() -> None:
 
 @pytest.mark.parametrize("engine", ["mujoco", "bullet"])
 @pytest.mark.parametrize("suffix", ["obj", "stl"])
-def test_a_mesh_of_several_hulls_is_an_error_until_each_has_a_file_of_its_own(
+def test_a_mesh_of_several_hulls_is_an_error_until_each_has_its_file(
     engine: str, suffix: str, run: Run, tmp_path: Path
 ) -> None:
     pytest.importorskip("pybullet" if engine == "bullet" else "mujoco")
@@ -108,9 +108,7 @@ def test_pybullet_makes_one_hull_of_an_stl(run: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("boxes", "code", "rule"), [(1, 0, "MF223"), (3, 1, "MF204")])
-def test_pybullet_makes_one_hull_of_a_collada_file_by_its_rule(
-    boxes: int, code: int, rule: str, run: Run, tmp_path: Path
-) -> None:
+def test_pybullet_makes_one_hull_of_a_collada_file(boxes: int, code: int, rule: str, run: Run, tmp_path: Path) -> None:
     pytest.importorskip("pybullet")
     solids = [Box(Pose.of_translation([3 * k, 0, 0]), np.ones(3)).tessellate() for k in range(boxes)]
     corners = np.concatenate([one.vertices for one in solids])

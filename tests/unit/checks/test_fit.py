@@ -64,9 +64,7 @@ def test_a_body_that_shows_something_without_hulls_is_named(bodies: list[str], b
 
 
 @pytest.mark.parametrize(("height", "bare"), [(0.0, False), (0.5, True)])
-def test_a_body_without_hulls_is_named_beside_what_it_is_welded_to_where_that_does_not_cover_it(
-    height: float, bare: bool
-) -> None:
+def test_a_body_without_hulls_is_named_beside_what_it_is_welded_to_if_not_covered(height: float, bare: bool) -> None:
     weld = Joint("", "fixed", "cup", "lid", np.zeros(3), np.array([1.0, 0.0, 0.0]), None)
     mesh = cup(box([0, 0, 0], [1, 1, 1]), joints=[weld], shown=())
     assert mesh.asset

@@ -117,9 +117,7 @@ def test_pairs_go_along_into_formats_that_have_them_and_are_named_by_the_rest(ca
 @pytest.mark.parametrize(
     ("pair", "said"), [("drawr:door", "'drawr'"), ("drawer", "needs two"), ("door:door", "needs two")]
 )
-def test_a_pair_that_cannot_be_is_one_error_and_nothing_is_written(
-    cabinet: Path, run: Run, pair: str, said: str
-) -> None:
+def test_a_pair_that_cannot_be_is_one_error_and_writes_nothing(cabinet: Path, run: Run, pair: str, said: str) -> None:
     refused = run("convert", "cabinet.xml", "out.xml", "--exclude", pair)
     assert refused.code == 2 and said in refused.err and not Path("out.xml").exists()
 

@@ -45,9 +45,7 @@ def test_bodies_that_the_file_lets_touch_are_found_to_overlap(tmp_path: Path) ->
         ('contype="1048577"', 'contype="1048576" conaffinity="2"', ""),
     ],
 )
-def test_an_overlap_that_the_file_excludes_is_told_and_does_no_harm(
-    tmp_path: Path, first: str, second: str, contact: str
-) -> None:
+def test_an_overlap_that_the_file_excludes_does_no_harm(tmp_path: Path, first: str, second: str, contact: str) -> None:
     found = simulate(mesh(tmp_path, BOXES.format(first, second), contact))
     (overlap,) = found.overlaps
     assert overlap.excluded and overlap.depth == pytest.approx(0.4, rel=0.05)

@@ -54,9 +54,7 @@ def test_a_drawer_in_a_solid_carcass_is_an_error_and_in_a_hollow_one_none(run: R
 @pytest.mark.parametrize(
     ("axis", "depth", "severity"), [("z", 0.1, None), ("x", 0.02, "warning"), ("x", 0.1, "error"), (None, 0.1, "error")]
 )
-def test_neighbours_may_overlap_around_their_axis_and_a_little_elsewhere(
-    axis: str | None, depth: float, severity: str | None
-) -> None:
+def test_neighbours_may_overlap_at_an_axis_and_a_little(axis: str | None, depth: float, severity: str | None) -> None:
     """A long leaf that hangs on the edge of a board: about a pin in the edge, or in a groove; or on nothing."""
     leaf = box([1 - depth, 0, 0], [2, 0.2, 0.2])
     joints = [joint("revolute" if axis == "z" else "prismatic", (0, 0.001), axis, (1, 0.1, 0))] if axis else []

@@ -11,9 +11,7 @@ from tests.faults.runs import outputs
 from tests.unit.cli.in_process import Run
 
 
-def test_the_same_cut_again_says_so_and_changes_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
-) -> None:
+def test_the_same_cut_again_says_so_without_changes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
     monkeypatch.chdir(tmp_path)
     project = cup_project(tmp_path)
     words = ("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0")

@@ -50,9 +50,7 @@ def test_what_is_untried_is_no_failure_unless_everywhere_or_asked_for(run: Run, 
     assert run("goal", "tables", "swings(Is(top))").code == 1
 
 
-def test_nothing_is_tried_twice_until_something_changes(
-    run: Run, project: Project, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_nothing_is_tried_twice_without_a_change(run: Run, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     first = run("goal", "tables", CARRIES, "--workers", "1").out
     tried = list[str]()
 

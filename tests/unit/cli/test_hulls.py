@@ -53,9 +53,7 @@ BODIES = ("leg_left/foot", "leg_left/geom1", "leg_right/foot", "top/leg_plate")
         ("*", set(BODIES)),
     ],
 )
-def test_a_pattern_is_compared_with_the_whole_name_and_a_star_stands_for_slashes_too(
-    pattern: str, found: set[str]
-) -> None:
+def test_a_pattern_is_compared_with_the_whole_name_and_a_star_takes_slashes(pattern: str, found: set[str]) -> None:
     assert find_hulls(pattern, BODIES, "HULLS") == found
 
 

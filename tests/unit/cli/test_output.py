@@ -16,9 +16,7 @@ def test_a_piped_table_breaks_no_line_however_long(capsys: pytest.CaptureFixture
     assert second.strip() == "b.obj"
 
 
-def test_a_piped_table_is_what_rich_would_print(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_piped_table_is_what_rich_prints(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     columns, right = ("asset", "hulls", "remarks"), ("hulls",)
     tables: list[list[tuple[object, ...]]] = [
         [],

@@ -88,9 +88,7 @@ def test_nothing_of_it_is_left_and_no_thread_runs_till_it_takes_long() -> None:
     assert signal.getsignal(signal.SIGALRM) is signal.SIG_DFL
 
 
-def test_at_a_terminal_it_is_one_line_that_goes_before_results_are_printed(
-    capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_at_a_terminal_one_line_goes_before_results(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     with progress(2, "editing") as advance:

@@ -149,9 +149,7 @@ def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_befor
 
 
 @pytest.mark.slow
-def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
-    racks: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_result_that_stands_out_in_a_run_is_not_signed_off_by_it(racks: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     find_right(Project.open("racks"), PLAIN[2])
     with monkeypatch.context() as earlier:
         earlier.setattr("meshforge.project.review.measure_results", lambda *_: {})  # as a version before did

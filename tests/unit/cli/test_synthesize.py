@@ -164,7 +164,7 @@ def _turned(folder: Path) -> Project:
     return project
 
 
-def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
+def test_the_first_interrupt_ends_the_search_with_its_find(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mislabelled(tmp_path)
@@ -189,9 +189,7 @@ def test_the_second_interrupt_ends_the_program() -> None:
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_a_search_without_time_tells_how_to_give_it_more(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_search_without_time_says_how_to_get_more(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mislabelled(tmp_path)
     learn = synthesis.synthesize
 

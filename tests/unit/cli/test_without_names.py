@@ -70,9 +70,7 @@ def test_a_class_is_corrected_by_hand_as_a_label_is(learned: Run) -> None:
         (["part_a=\udcff"], "--rename part_a=\\xff: it needs a label and its new name, in UTF-8"),
     ],
 )
-def test_a_name_that_cannot_be_given_is_one_error_and_changes_nothing(
-    learned: Run, words: list[str], said: str
-) -> None:
+def test_a_name_that_cannot_be_is_one_error_and_changes_nothing(learned: Run, words: list[str], said: str) -> None:
     before = Path("p/program.mf").read_text()
     told = learned("label", "p", "--rename", *words)
     assert told.code == 2 and said in told.err and not told.out

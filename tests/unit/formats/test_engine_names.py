@@ -158,9 +158,7 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
         ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf."),
     ],
 )
-def test_formats_without_such_names_are_refused_with_those_that_have_them(
-    place: str, engine: MarkName, message: str, tmp_path: Path
-) -> None:
+def test_formats_without_such_names_are_refused(place: str, engine: MarkName, message: str, tmp_path: Path) -> None:
     with pytest.raises(UsageError) as caught:
         save(SAMPLES["crowd"](), tmp_path / place, names=engine)
     assert caught.value.message == message

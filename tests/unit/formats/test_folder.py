@@ -107,9 +107,7 @@ def test_other_mesh_files_in_the_way_are_not_taken_for_hulls(folder: Path, tmp_p
     assert (out / "readme.txt").exists()
 
 
-def test_a_new_folder_appears_whole_or_not_at_all(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_new_folder_appears_whole_or_never(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from meshforge.formats import output_tree
 
     asset, copy, calls = read(folder), output_tree.copy_atomically, iter([None, KeyboardInterrupt()])

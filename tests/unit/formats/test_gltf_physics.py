@@ -188,9 +188,7 @@ def test_bodies_of_omi_are_told_by_motion_or_by_type(scene: SceneFile, tmp_path:
 @pytest.mark.parametrize(
     ("draft", "standard"), [("OMI_collider", "OMI_physics_shape"), ("KHR_collision_shapes", "KHR_implicit_shapes")]
 )
-def test_drafts_of_the_extensions_are_refused_with_what_they_are_called_now(
-    tmp_path: Path, draft: str, standard: str
-) -> None:
+def test_drafts_of_the_extensions_are_refused_with_their_names_now(tmp_path: Path, draft: str, standard: str) -> None:
     scene = SceneFile.of(("box", box()))
     scene.uses(draft)
     with pytest.raises(AssetError) as caught:

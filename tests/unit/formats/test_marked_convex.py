@@ -107,9 +107,7 @@ def test_a_mesh_that_is_marked_convex_and_is_has_no_note(write: Writer, tmp_path
 
 
 @every_mark
-def test_a_mesh_that_is_marked_convex_and_is_open_says_that_its_share_is_not_known(
-    write: Writer, tmp_path: Path
-) -> None:
+def test_a_mesh_marked_convex_that_is_open_says_that_its_share_is_not_known(write: Writer, tmp_path: Path) -> None:
     vertices, faces = angle()
     gaps: Ints = np.delete(faces, [0, 9], axis=0)
     (note,) = notes_of(write(tmp_path, (vertices, gaps)))

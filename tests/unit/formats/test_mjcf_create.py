@@ -194,9 +194,7 @@ def test_a_visual_is_copied_as_it_is_and_does_not_collide_nor_weigh(tmp_path: Pa
         ("one.ply", ply(TRIANGLE)),
     ],
 )
-def test_a_visual_that_mujoco_would_show_in_part_or_refuse_becomes_an_obj(
-    name: str, text: str | bytes, tmp_path: Path
-) -> None:
+def test_a_visual_that_mujoco_shows_in_part_or_refuses_is_an_obj(name: str, text: str | bytes, tmp_path: Path) -> None:
     asset = shown(tmp_path, name, text)
     _, model, saved = made(asset, tmp_path)
     assert not [path for path in saved.files if path.name == name]

@@ -89,9 +89,7 @@ def test_the_main_files_folder_comes_before_that_of_the_including_file(tmp_path:
         ('strippath="true" meshdir="m"', "zz/t.obj", "m/t.obj"),
     ],
 )
-def test_mesh_files_are_found_where_mujoco_finds_them(
-    compiler: str, reference: str, place: str, tmp_path: Path
-) -> None:
+def test_mesh_files_are_where_mujoco_finds_them(compiler: str, reference: str, place: str, tmp_path: Path) -> None:
     files: Files = {
         "main.xml": model(MESHED, f'<compiler {compiler}/><include file="sub/assets.xml"/>'),
         "sub/assets.xml": f'<x><asset><mesh name="t" file="{reference}"/></asset></x>'.replace("\\\\", "\\"),

@@ -91,9 +91,7 @@ def test_where_geoms_never_weigh_nothing_is_written(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("change", ["box", "nothing"])
 @pytest.mark.parametrize("own", ["", GIVEN])
-def test_where_geoms_always_weigh_the_setting_gives_way_and_every_body_keeps_its_mass(
-    own: str, change: str, tmp_path: Path
-) -> None:
+def test_where_geoms_always_weigh_the_setting_goes_bodies_keep_masses(own: str, change: str, tmp_path: Path) -> None:
     """An `<inertial>` that was ignored so far must not count now."""
     before = '<compiler angle="degree"/>\n<compiler inertiafromgeom="true"/>'
     text = TWO.format(FREE + own, f'<frame pos="1 0 0">{GIVEN}</frame>')

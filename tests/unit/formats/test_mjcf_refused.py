@@ -106,9 +106,7 @@ def test_a_second_fault_behind_the_first_is_told_too(tmp_path: Path) -> None:
         ("", '<asset><hfield name="h" nrow="inf" ncol="2" size="1 1 1 1"/></asset>', "this <hfield> is too large"),
     ],
 )  # fmt: skip
-def test_numbers_that_would_bring_mujoco_down_are_refused(
-    inside: str, before: str, message: str, tmp_path: Path
-) -> None:
+def test_numbers_that_would_crash_mujoco_are_refused(inside: str, before: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(AssetError, match=re.escape(message)):
         read(put(tmp_path, {"main.xml": model(inside, before)}))
 
@@ -165,9 +163,7 @@ BODY = """<worldbody><body name="top">
         ('<default><default><geom group="1"/></default><default class="t"/></default>', "sphere sphere", "0 0"),
     ],
 )
-def test_defaults_that_only_older_versions_understand_are_read(
-    tmp_path: Path, defaults: str, kinds: str, groups: str
-) -> None:
+def test_defaults_only_older_versions_take_are_read(tmp_path: Path, defaults: str, kinds: str, groups: str) -> None:
     path = tmp_path / "a.xml"
     path.write_text(f"<mujoco>{defaults}{BODY}</mujoco>")
     asset = read(path)

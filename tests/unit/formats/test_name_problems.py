@@ -82,9 +82,7 @@ def test_words_that_only_look_like_marks_are_none(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("parent", ["Gate_coliders", "Gate_collider", "Gate-colliders"])
-def test_a_parent_that_does_not_say_that_what_it_holds_collides_is_an_error_for_unity(
-    tmp_path: Path, parent: str
-) -> None:
+def test_a_parent_that_does_not_say_that_its_parts_collide_is_an_error_for_unity(tmp_path: Path, parent: str) -> None:
     (finding,) = findings_of(tmp_path, "unity", "Gate", parents=(parent,))
     assert finding.message == f"{parent}: its name marks no collision"
     assert finding.remedy == "Is _colliders meant? Spell it so."

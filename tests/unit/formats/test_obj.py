@@ -86,9 +86,7 @@ def test_relative_numbers_stay_relative(tmp_path: Path) -> None:
     ("more", "end", "count"),
     [("f 1 16\nf -1 -16\nl 2 3\n", "f 1 11\nf -1 -11\nl 2 3\n", 11), ("l 1 16\np -16\n", "l 1 9\np -9\n", 9)],
 )
-def test_vertices_of_lines_points_and_faces_of_two_corners_stay(
-    tmp_path: Path, more: str, end: str, count: int
-) -> None:
+def test_vertices_of_lines_points_and_two_corners_stay(tmp_path: Path, more: str, end: str, count: int) -> None:
     _, text = edited(written(tmp_path / "a.obj", two_legs() + more), tmp_path / "b.obj", drop={"left leg"})
     assert text.endswith(end) and text.count("v ") == count and "v 0 0 0\n" in text
 

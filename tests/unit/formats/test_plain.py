@@ -142,9 +142,7 @@ def test_hulls_that_an_stl_cannot_hold_apart_are_refused_not_fused(tmp_path: Pat
 
 
 @pytest.mark.parametrize(("old", "new"), [("6.0", "6.5"), ("0.25", "0.375")], ids=["stays", "made"])
-def test_corners_that_a_writer_moves_are_noticed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
-) -> None:
+def test_corners_a_writer_moves_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str) -> None:
     edited = StlFormat.apply_edit
     moved = (f"vertex {old} ".encode(), f"vertex {new} ".encode())
     monkeypatch.setattr(StlFormat, "apply_edit", lambda *given: edited(*given).replace(*moved))

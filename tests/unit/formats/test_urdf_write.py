@@ -84,9 +84,7 @@ def test_the_triangles_of_a_kept_piece_are_those_of_the_author(tmp_path: Path) -
     "shape", [Box(TURNED, np.array(HALF)), Sphere(TURNED, 0.3), Cylinder(TURNED, 0.2, 0.4)], ids=lambda s: s.kind
 )
 @pytest.mark.parametrize("parent", ["base/posts#2", "wheel/tyre", "base/geom0"])
-def test_a_native_shape_is_written_as_itself_and_inherits_from_its_parent(
-    shape: Shape, parent: str, tmp_path: Path
-) -> None:
+def test_a_native_shape_is_written_as_such_and_inherits_from_one(shape: Shape, parent: str, tmp_path: Path) -> None:
     asset = read(sample(tmp_path))
     kept = without(asset, parent)
     edited = kept.with_geoms([*kept.geoms, made(asset, parent, shape)])
@@ -105,9 +103,7 @@ def test_a_native_shape_is_written_as_itself_and_inherits_from_its_parent(
     [Capsule(TURNED, 0.1, 0.2), Ellipsoid(TURNED, np.array(HALF)), Box(TURNED, np.array(HALF)).tessellate()],
     ids=lambda s: s.kind,
 )
-def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_hulls(
-    shape: Shape, tmp_path: Path
-) -> None:
+def test_other_shapes_become_hulls_in_own_files_noted_unless_they_are_hulls(shape: Shape, tmp_path: Path) -> None:
     asset = read(sample(tmp_path))
     edited = asset.with_geoms([*asset.geoms, made(asset, "base/posts#2", shape), made(asset, "wheel/tyre", shape, 7)])
     output = write(edited)
@@ -238,9 +234,7 @@ def test_made_files_take_no_name_that_is_in_use(tmp_path: Path) -> None:
         ("{path}/meshes/three.obj", "cart--a_geom0_1.obj"),
     ],
 )
-def test_made_files_lie_beside_the_mesh_they_replace_but_never_outside(
-    reference: str, place: str, tmp_path: Path
-) -> None:
+def test_made_files_lie_beside_the_mesh_they_replace_never_outside(reference: str, place: str, tmp_path: Path) -> None:
     mesh = f'<mesh filename="{reference.format(folder=tmp_path.name, path=tmp_path)}"/>'
     asset = read(sample(tmp_path, robot(link(mesh))))
     output = write(without(asset, "a/geom0#0", "a/geom0#2"))

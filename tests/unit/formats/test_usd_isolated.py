@@ -111,9 +111,7 @@ def test_a_worker_of_a_batch_reads_by_itself_and_loses_one_asset(tmp_path: Path)
     assert isinstance(lost, WorkerFailure) and lost.why.startswith("its worker process died (SIG")
 
 
-def test_relative_paths_are_those_of_the_folder_where_the_call_is_made(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_relative_paths_are_those_of_the_folder_of_the_call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("one", "two"):
         (tmp_path / name).mkdir()
         written(tmp_path / name, CUP if name == "two" else (ROOT / "usd/cube.usda").read_text())

@@ -71,9 +71,7 @@ def test_planes_are_opaque_and_endless(tmp_path: Path) -> None:
         *(("none", 0, 1), ("convexDecomposition", 0, 1), ("meshSimplification", 0, 1), ("sdf", 0, 1)),
     ],
 )
-def test_an_approximation_makes_one_shape_or_leaves_the_mesh(
-    tmp_path: Path, approximation: str, hulls: int, opaque: int
-) -> None:
+def test_an_approximation_is_one_shape_or_the_mesh(tmp_path: Path, approximation: str, hulls: int, opaque: int) -> None:
     said = f'uniform token physics:approximation = "{approximation}"'
     asset = of(tmp_path, mesh("angle", api=COLLIDES, more=said, points=L_SHAPE))
     assert (len(asset.geoms), len(asset.non_convex)) == (hulls, opaque)
@@ -220,9 +218,7 @@ def test_filtered_pairs_of_bodies_are_told_and_excluded_from_the_check(tmp_path:
     assert [overlap.excluded for overlap in simulate(SymbolicMesh.of(asset)).overlaps] == [True]
 
 
-def test_what_the_library_complains_about_is_a_note_and_not_printed(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_what_the_library_complains_of_is_a_note_not_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     asset = of(tmp_path, 'def "gone" ( references = @./nope.usda@ )\n{\n}\n' + primitive("Cube"))
     assert any("nope.usda" in note for note in asset.notes) and asset.missing == ("nope.usda",)
     assert not any(str(tmp_path) in note for note in asset.notes)

@@ -74,9 +74,7 @@ def test_a_convex_sheet_is_one_thin_hull() -> None:
 
 
 @pytest.mark.parametrize("settings", [CoacdSettings(), VhacdSettings(resolution=20000)], ids=["coacd", "vhacd"])
-def test_a_sheet_with_a_corner_becomes_thin_hulls_that_leave_the_corner_free(
-    settings: CoacdSettings | VhacdSettings,
-) -> None:
+def test_a_sheet_with_a_corner_becomes_thin_hulls_that_leave_it_free(settings: CoacdSettings | VhacdSettings) -> None:
     turned = CORNER[0] @ np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.6]])
     hulls = sheet_hulls(turned, CORNER[1], lambda v, f: decompose(v, f, settings), "corner")
     thin = 1e-4 * float(principal_extents(turned)[2][0])

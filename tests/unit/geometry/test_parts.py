@@ -78,7 +78,7 @@ def cup() -> tuple[Floats, Ints, SurfaceParts]:
 
 @pytest.mark.parametrize("settings", [QUICK, VOXELS], ids=["coacd", "vhacd"])
 @pytest.mark.parametrize("shape", ["boxes", "arms"])
-def test_hulls_lie_within_the_hull_of_their_part_and_together_cover_the_surface(
+def test_hulls_lie_within_that_of_their_part_and_cover_the_surface(
     settings: CoacdSettings | VhacdSettings, shape: str
 ) -> None:
     touching = stack(box((0, 0, 0), (4, 1, 1)), box((1, 1, 0), (2, 3, 1)), box((-2, 0, 0), (0, 1, 1)))

@@ -61,9 +61,7 @@ TOUCHING = {
 @pytest.mark.parametrize("form", [welded, unindexed], ids=["shared vertices", "no vertices shared"])
 @pytest.mark.parametrize("shuffled", [False, True], ids=["one after the other", "mixed"])
 @pytest.mark.parametrize("inward", [False, True], ids=["outward", "inside out"])
-def test_boxes_that_touch_stay_apart_though_they_share_places(
-    other: Soup, form: type, shuffled: bool, inward: bool
-) -> None:
+def test_boxes_that_touch_stay_apart_sharing_places(other: Soup, form: type, shuffled: bool, inward: bool) -> None:
     vertices, faces = together(box(), other)
     if shuffled:
         faces = np.random.default_rng(5).permutation(faces)

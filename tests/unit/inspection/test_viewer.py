@@ -50,9 +50,7 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return pages
 
 
-def test_every_hull_is_in_the_scene_in_the_colour_of_its_label(
-    opened: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_hull_is_in_the_scene_coloured_by_label(opened: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     server = table().show(wait=False)
     assert list(server.meshes) == [f"hulls/{h.name}" for h in table().hulls]
     colors = [server.meshes[f"hulls/{name}"]["color"] for name in ("left", "right", "leg0", "leg1")]

@@ -117,9 +117,7 @@ def test_what_is_said_here_counts_more(project: Project, other: Project) -> None
     assert (crumb.name, crumb.source) == ("top", "propagated") and crumb.given and crumb.given.source == "like"
 
 
-def test_a_label_of_a_name_or_a_file_takes_its_place_and_not_the_other_way_round(
-    tmp_path: Path, project: Project
-) -> None:
+def test_a_label_of_a_name_or_a_file_takes_its_place_and_not_vice_versa(tmp_path: Path, project: Project) -> None:
     project.label("names")
     write_table(tmp_path / "own/assets/t1.obj", height=1.25)
     project.label("file")

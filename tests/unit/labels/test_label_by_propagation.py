@@ -96,9 +96,7 @@ ACTS = st.lists(
 
 @examples(25)
 @given(acts=ACTS)
-def test_no_label_of_a_person_is_ever_changed_by_a_machine(
-    tmp_path_factory: pytest.TempPathFactory, acts: list[Act]
-) -> None:
+def test_no_label_of_a_person_is_changed_by_machine(tmp_path_factory: pytest.TempPathFactory, acts: list[Act]) -> None:
     project = family(tmp_path_factory.mktemp("family"), 2)
     said: dict[tuple[str, str], str] = {}
     for who, asset, hull, label in acts:

@@ -167,9 +167,7 @@ def test_the_order_of_the_vocabulary_does_not_matter(vocabulary: list[str], name
         ("lamp", ("bulb", "shade"), None),  # the whole thing
     ],
 )
-def test_another_word_for_a_part_is_read_and_never_as_surely(
-    name: str, vocabulary: tuple[str, ...], label: str | None
-) -> None:
+def test_another_word_for_a_part_is_read_less_surely(name: str, vocabulary: tuple[str, ...], label: str | None) -> None:
     found = match_label(name, vocabulary)
     assert (found and found.label) == label
     assert found is None or found.how == "word" or found.confidence <= SURE

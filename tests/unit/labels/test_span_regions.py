@@ -151,9 +151,7 @@ def test_where_nothing_is_said_of_any_piece_no_hull_spans_parts() -> None:
 
 
 @pytest.mark.parametrize(("apart", "spans"), [(True, True), (False, False)])
-def test_a_hull_that_alone_has_a_solid_of_another_label_spans_parts_however_thin_that_is(
-    apart: bool, spans: bool
-) -> None:
+def test_a_hull_that_alone_has_a_solid_of_another_label_spans_parts_however_thin(apart: bool, spans: bool) -> None:
     """A seat with a leg that is a twentieth of it, a solid by itself or not; and a hull of the seat alone."""
     seat, leg = make_box((0, 0, 1), (1, 1, 0.1)), make_box((0, 0, 0.5), (0.1, 0.1, 0.5))
     mesh = SymbolicMesh((Hull("h", "b", make_box((0, 0, 0.55), (1, 1, 0.55))), Hull("seat", "b", seat)))

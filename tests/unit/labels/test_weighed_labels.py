@@ -87,7 +87,7 @@ def test_words_outside_of_the_vocabulary_say_nothing_but_are_kept(tmp_path: Path
 
 
 @pytest.mark.parametrize(("source", "sure"), [("user", 1.0), ("file", 1.0), ("file", 0.6)])
-def test_a_label_that_one_asset_alone_has_stays_where_a_person_or_a_file_gave_it(
+def test_a_label_of_one_asset_alone_stays_where_a_person_or_file_gave_it(
     tmp_path: Path, source: LabelSource, sure: float
 ) -> None:
     project = guessed(tmp_path)

@@ -155,9 +155,7 @@ def test_assets_whose_action_is_missing_in_a_worker_fail_by_name(run: Run, insta
     assert not Path("out/table.obj").exists()
 
 
-def test_an_action_keeps_its_text_where_its_package_is_missing(
-    install: Install, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_action_keeps_its_text_if_its_package_is_missing(install: Install, monkeypatch: pytest.MonkeyPatch) -> None:
     install("actions", "Spoil", action_code("return GroupEdit()").replace("slots=True)", "slots=True)"))
     kept = pickle.dumps(Each(parse_action("Spoil")))
     assert pickle.loads(kept) == Each(parse_action("Spoil"))

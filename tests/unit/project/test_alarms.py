@@ -67,9 +67,7 @@ def test_an_asset_on_which_the_program_cannot_run_has_no_result(racks: Project) 
         (Each(Replace("capsule", "tight")), "handle", "and door shrinks from 0.0141 m to 0 m"),
     ],
 )
-def test_a_primitive_that_sticks_out_or_grows_into_another_part_stands_out(
-    tmp_path: Path, action: Action, label: str, why: str
-) -> None:
+def test_a_primitive_that_sticks_out_or_in_stands_out(tmp_path: Path, action: Action, label: str, why: str) -> None:
     project = show_microwaves(tmp_path, {label: action})
     found = find_all(project)
     assert [*found] == NAMES and any(why in text for text in found[NAMES[0]])
@@ -107,9 +105,7 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return measured
 
 
-def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
-    racks: Project, measured: list[int]
-) -> None:
+def test_what_is_written_is_read_from_its_stamp_the_rest_measured_once(racks: Project, measured: list[int]) -> None:
     list(racks.apply([PLAIN[0], BLOCK], execution=IN_PROCESS))
     meshes = dict(racks.meshes_by_id())
     found = find_all(racks, meshes)

@@ -97,9 +97,7 @@ STAYS = (("a slip", "no slip"), ("turned", "not turned"), ("a group is something
 
 
 @pytest.mark.parametrize(("first", "last"), STAYS)
-def test_what_lies_in_other_files_is_changed_by_hand_and_that_is_said(
-    place: Callable[[Case], Place], first: str, last: str
-) -> None:
+def test_what_lies_in_other_files_is_said_to_be_by_hand(place: Callable[[Case], Place], first: str, last: str) -> None:
     both = place(CASES[first])
     both.say(CASES[first].reply, "Ada")
     before, events = sums(look(both.project)), both.project.layout.events.read_bytes()

@@ -69,9 +69,7 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
 
 
 @pytest.mark.slow
-def test_equal_copies_are_decomposed_once_and_a_try_writes_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_equal_copies_are_decomposed_once_a_try_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
     for name in "abc":
         write_stand(tmp_path / "assets" / name)

@@ -176,7 +176,7 @@ def test_what_is_less_sure_than_is_asked_for_is_named_and_left(project: Project)
 
 
 @pytest.mark.parametrize(("source", "left"), [("user", True), ("repair", True), ("file", True), ("name", False)])
-def test_a_label_of_a_person_or_a_file_speaks_against_it_and_a_name_does_not(
+def test_a_label_of_a_person_or_a_file_counts_and_a_name_does_not(
     project: Project, source: LabelSource, left: bool
 ) -> None:
     spanning = project.mesh("c.urdf").hulls[0]

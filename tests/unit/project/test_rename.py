@@ -123,9 +123,7 @@ def test_a_label_keeps_its_description_under_its_other_name(tmp_path: Path) -> N
         ("leg", "a\nb", "no program could write"),
     ],
 )
-def test_what_cannot_be_renamed_is_refused_with_nothing_changed(
-    tmp_path: Path, old: str, new: str, message: str
-) -> None:
+def test_what_cannot_be_renamed_is_refused_and_unchanged(tmp_path: Path, old: str, new: str, message: str) -> None:
     project = demonstrated(tmp_path)
     before = tree(project.folder)
     with pytest.raises(ProjectError, match=message):

@@ -215,7 +215,7 @@ def touch_all(project: Project) -> None:
         (touch_all, NONE),
     ],
 )
-def test_a_change_voids_what_rests_on_it_and_nothing_else(
+def test_changes_void_just_what_rests_on_them(
     project: Project, change: Callable[[Project], None], voids: Voids
 ) -> None:
     assert find_voids(project) == {}, "a copy is signed off as the project is"

@@ -94,9 +94,7 @@ LINE = st.tuples(*[st.integers(0, 40)] * 4).filter(lambda v: v[:2] != v[2:])
 
 
 @given(st.lists(LINE, min_size=1, max_size=6), st.lists(BOX, min_size=1, max_size=6))
-def test_lines_cut_the_boxes_that_some_of_their_points_are_in(
-    lines: list[tuple[int, ...]], boxes: list[tuple[int, ...]]
-) -> None:
+def test_lines_cut_the_boxes_that_have_some_points(lines: list[tuple[int, ...]], boxes: list[tuple[int, ...]]) -> None:
     found = find_box_crossings(np.array(lines, float), np.array(boxes, float))
     for (a, line), (b, box) in ((x, y) for x in enumerate(lines) for y in enumerate(boxes)):
         points = between(line)
@@ -120,9 +118,7 @@ def short(line: tuple[int, ...], box: tuple[int, ...]) -> bool:
 
 
 @given(LINE, LINE)
-def test_crossing_is_mutual_and_lines_with_a_common_end_do_not_cross(
-    line: tuple[int, ...], other: tuple[int, ...]
-) -> None:
+def test_crossing_is_mutual_and_lines_with_one_end_do_not_cross(line: tuple[int, ...], other: tuple[int, ...]) -> None:
     one, two = np.array([line], float), np.array([other], float)
     assert find_line_crossings(one, two)[0, 0] == find_line_crossings(two, one)[0, 0]
     assert not find_line_crossings(one, np.array([(*line[:2], *other[2:])], float))[0, 0]

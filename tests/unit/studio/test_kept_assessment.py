@@ -75,9 +75,7 @@ def files_of(project: Project) -> list[bytes | None]:
     return [path.read_bytes() if path.exists() else None for path in paths]
 
 
-def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
-    tmp_path: Path, flag: CancelFlag
-) -> None:
+def test_what_was_assessed_is_in_the_status_and_signs_off_what_is_written(tmp_path: Path, flag: CancelFlag) -> None:
     project = assessed(tmp_path, flag)
     assert signers_of(project) == {FIRST: "person", SECOND: "person", THIRD: "tool"}
     assert project.status().is_signed_off
@@ -88,9 +86,7 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     assert files_of(project) == before
 
 
-def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(
-    tmp_path: Path, flag: CancelFlag
-) -> None:
+def test_nothing_rests_unseen_on_a_demonstration_carried_to_parts_of_a_hull(tmp_path: Path, flag: CancelFlag) -> None:
     project = judged(applied(tmp_path))
     project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
     list(project.apply(execution=IN_PROCESS))
@@ -105,9 +101,7 @@ def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_o
     assert {FIRST, THIRD} <= signers_of(project).keys(), "a person looked"
 
 
-def test_what_changed_while_it_was_assessed_is_not_kept(
-    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_changed_meanwhile_is_not_kept(tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch) -> None:
     project = applied(tmp_path)
     learn(project, flag)
 
@@ -121,9 +115,7 @@ def test_what_changed_while_it_was_assessed_is_not_kept(
     assert files_of(project) == [None, None]
 
 
-def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
-    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_where_it_cannot_be_kept_it_is_shown(tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch) -> None:
     def fill_up(*_: object) -> bool:
         raise OSError(28, "No space left on device")
 
@@ -165,9 +157,7 @@ def test_while_nothing_fits_sign_offs_stay_as_they_are(tmp_path: Path, flag: Can
     assert files_of(project) == before
 
 
-def test_what_a_person_takes_back_is_signed_off_no_longer_and_the_bar_is_that_of_the_review(
-    tmp_path: Path, flag: CancelFlag
-) -> None:
+def test_what_a_person_takes_back_is_not_signed_off_and_the_threshold_stays(tmp_path: Path, flag: CancelFlag) -> None:
     project = applied(tmp_path)
     project.set_verdict(THIRD, "accepted")
     project.review(0.9999, execution=IN_PROCESS)
@@ -190,9 +180,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     assert next(one for one in project.status().assets if one.id == THIRD).result_status.void == ("program", ANSWERS)
 
 
-def test_what_was_said_is_learned_from_what_is_snoozed_is_only_asked_anew_and_sign_offs_are_neither(
-    tmp_path: Path,
-) -> None:
+def test_what_was_said_is_learned_from_what_is_snoozed_is_asked_anew_sign_offs_are_neither(tmp_path: Path) -> None:
     project = applied(tmp_path)
     done = list[str]()
     learning = SimpleNamespace(assess=lambda: done.append("assess"), restart=lambda: done.append("learn"))

@@ -39,9 +39,7 @@ def test_a_damaged_file_is_the_reason_that_nothing_can_be_applied(project: Proje
     assert new is None and damage and "preparation.json" in damage
 
 
-def test_preparations_are_read_again_only_where_something_about_them_changed(
-    project: Project, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_preparations_are_read_again_only_where_one_changed(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = list[Project]()
 
     def count(store: Project) -> tuple[list[object], None]:

@@ -76,9 +76,7 @@ def check_same(packet: bytes, source: SymbolicMesh, wanted: SymbolicMesh) -> dic
 
 
 @pytest.mark.parametrize("steps", range(6))
-def test_the_first_steps_do_what_as_many_rules_of_the_learned_program_do(
-    project: Project, program: Program, steps: int
-) -> None:
+def test_the_first_steps_do_what_as_many_learned_rules_do(project: Project, program: Program, steps: int) -> None:
     mesh = project.mesh(SHOWN)
     wanted = ran(project, program, SHOWN, steps)
     header = check_same(packets.preview_steps(project, SHOWN, mesh, steps), mesh, wanted)
@@ -152,7 +150,7 @@ def test_an_extractor_selects_what_a_rule_of_the_program_meets(project: Project,
         ("\n Attach(Is(leg), Is(leggs))", 2, 21, "Did you mean 'leg'?"),
     ],
 )
-def test_what_is_wrong_with_an_extractor_is_marked_where_it_stands(
+def test_what_is_wrong_with_an_extractor_is_marked(
     project: Project, text: str, line: int, column: int, message: str
 ) -> None:
     found = programs.select_hulls(project, OTHER, project.mesh(OTHER), SelectRequest(asset=OTHER, extractor=text))

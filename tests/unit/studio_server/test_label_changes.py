@@ -150,7 +150,7 @@ MOVES = st.lists(
 
 @examples(12)
 @given(moves=MOVES)
-def test_no_label_of_a_person_is_lost_whatever_is_done(
+def test_no_label_of_a_person_is_ever_lost(
     tmp_path_factory: pytest.TempPathFactory, moves: Sequence[LabelHulls | str]
 ) -> None:
     project, history = labelled(tmp_path_factory.mktemp("family"))

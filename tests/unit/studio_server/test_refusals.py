@@ -104,9 +104,7 @@ def test_a_program_that_is_no_text_is_kept_when_another_takes_its_place(host: Ho
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EACCES, errno.EROFS])
-def test_what_the_disk_refuses_is_said_and_nothing_is_changed(
-    host: Host, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
-) -> None:
+def test_what_the_disk_refuses_is_said(host: Host, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
     def refuse(*_: Any, **__: Any) -> NoReturn:
         raise OSError(code, os.strerror(code))
 

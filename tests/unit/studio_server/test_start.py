@@ -94,9 +94,7 @@ def test_a_project_that_is_gone_is_shown_as_gone_and_can_be_forgotten(state: Pat
     assert [one.name for one in recent.list()] == ["there"]
 
 
-def test_recent_projects_say_how_far_they_are_as_long_as_nothing_changed(
-    state: Path, tmp_path: Path, assets: Path
-) -> None:
+def test_recent_projects_say_how_far_they_are_until_that_changed(state: Path, tmp_path: Path, assets: Path) -> None:
     recent, folder = RecentProjects(state), Project.create(tmp_path / "p", [assets]).folder
     picture = folder / ".meshforge" / "studio" / "thumbnails" / "a.png"
     assert recent.find_picture(str(folder)) is None
@@ -196,9 +194,7 @@ def test_a_look_names_the_parts_of_what_has_no_hulls(page: StartPage, tmp_path: 
     assert (found.assets, found.bare, found.divided, found.parts) == (2, 2, 1, ("seat", "leg"))
 
 
-def test_a_project_of_an_upload_has_the_assets_that_can_be_read_in_its_own_folder(
-    page: StartPage, tmp_path: Path
-) -> None:
+def test_a_project_of_an_upload_has_what_can_be_read_in_its_own_folder(page: StartPage, tmp_path: Path) -> None:
     send(page, "desks/table_01.obj", (TABLES / "table_01.obj").read_bytes())
     send(page, "desks/bad.obj", b"v 0 0 zero\nf 1 1 1\n")
     send(page, "desks/notes.txt", b"mine")
@@ -225,9 +221,7 @@ def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(page: Start
 
 
 @pytest.mark.parametrize("what", ["project", "other files", "file", "below a file"])
-def test_a_place_that_is_taken_is_refused_and_left_as_it_is(
-    page: StartPage, tmp_path: Path, assets: Path, what: str
-) -> None:
+def test_a_place_that_is_taken_is_refused_and_stays(page: StartPage, tmp_path: Path, assets: Path, what: str) -> None:
     place = tmp_path / "place"
     if what == "project":
         Project.create(place, [assets])
@@ -263,9 +257,7 @@ def host(monkeypatch: pytest.MonkeyPatch, state: Path) -> Iterator[Host]:
 
 
 @pytest.mark.slow
-def test_a_project_that_is_open_closes_the_start_page_until_it_is_left(
-    host: Host, tmp_path: Path, assets: Path
-) -> None:
+def test_an_open_project_closes_the_start_page_until_it_is_left(host: Host, tmp_path: Path, assets: Path) -> None:
     folder = Project.create(tmp_path / "project", [assets]).folder
     with pytest.raises(ConflictError):
         _ = host.session
@@ -286,7 +278,7 @@ def test_a_folder_that_is_no_project_is_refused_and_the_start_page_stays(host: H
     assert host.start.recent.list() == ()
 
 
-def test_a_studio_that_was_started_on_a_project_has_no_start_page(
+def test_a_studio_of_one_project_has_no_start_page(
     monkeypatch: pytest.MonkeyPatch, state: Path, tmp_path: Path
 ) -> None:
     monkeypatch.setitem(os.environ, "MESHFORGE_STATE", str(state))

@@ -52,9 +52,7 @@ def test_a_file_that_is_too_large_is_named_and_leaves_nothing(tmp_path: Path, mo
     assert (home.list_files()[0] / "robot/arm.stl").read_bytes() == b"12345"
 
 
-def test_files_that_are_too_large_together_are_no_fault_of_the_last_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_files_too_large_together_are_no_fault_of_the_last_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transfers, "MOST_ALL_FILES", 3 * transfers.MB)
     home = Uploads(tmp_path / "uploads")
     asyncio.run(home.put("a.stl", chunks(bytes(2 * transfers.MB))))

@@ -50,9 +50,7 @@ def told(
     (["d"], [], ("'d' of row has no label",
                  "if only a part of 'd' is meant, cut the hull (meshforge cut)")),
 ])  # fmt: skip
-def test_hulls_that_are_too_much_are_named_with_their_labels(
-    extra: list[str], missing: list[str], said: tuple[str, ...]
-) -> None:
+def test_hulls_too_much_are_named_by_label(extra: list[str], missing: list[str], said: tuple[str, ...]) -> None:
     assert told(extra, missing, example("row", ROW)) == said
 
 
