@@ -44,12 +44,7 @@ def test_hello_tells_everything(studio: Studio) -> None:
 
 @pytest.mark.parametrize(
     ("path", "query"),
-    [
-        ("/api/shapes", {}),
-        ("/api/visual", {}),
-        ("/api/stage", {"steps": 2}),
-        ("/api/result", {"of": "program"}),
-    ],
+    [("/api/shapes", {}), ("/api/visual", {}), ("/api/stage", {"steps": 2}), ("/api/result", {"of": "program"})],
 )
 def test_packets_come_whole(studio: Studio, path: str, query: dict[str, str | int]) -> None:
     answer = studio.get(path, asset=FIRST, **query)

@@ -170,10 +170,7 @@ def test_a_label_of_300_characters_is_cut(studio: Studio, browser: Browser) -> N
     ids=lambda word: word or "system",
 )
 def test_the_first_paint_is_in_the_theme_before_any_script_or_style(
-    studio: Studio,
-    browser: Browser,
-    system: Literal["light", "dark"],
-    chosen: Literal["light", "dark"] | None,
+    studio: Studio, browser: Browser, system: Literal["light", "dark"], chosen: Literal["light", "dark"] | None
 ) -> None:
     page = browser.new_context(color_scheme=system, viewport={"width": 300, "height": 200}).new_page()
     page.route("**/assets/*", lambda route: route.abort())

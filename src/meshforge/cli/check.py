@@ -61,8 +61,7 @@ class CheckArguments:
         ),
     ] = None
     pictures: Annotated[
-        Path | None,
-        typer.Option("--pictures", help="Folder for heat maps, what is closed, and pairs, as pictures."),
+        Path | None, typer.Option("--pictures", help="Folder for heat maps, what is closed, and pairs, as pictures.")
     ] = None
     fix: Annotated[
         bool,

@@ -19,8 +19,7 @@ class DecomposeArguments:
 
     mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")]
     out: Annotated[
-        Path | None,
-        typer.Option("-o", "--out", help="The file of hulls to write; its suffix names the format."),
+        Path | None, typer.Option("-o", "--out", help="The file of hulls to write; its suffix names the format.")
     ] = None
     method: Annotated[options.EngineMethod, typer.Option("--decompose", help="The engine.")] = (
         options.EngineMethod.COACD

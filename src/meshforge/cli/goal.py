@@ -29,8 +29,7 @@ class GoalArguments:
 
     project: Annotated[Path, typer.Argument(help="A project folder.")]
     goal: Annotated[
-        str | None,
-        typer.Argument(metavar="[GOAL]", help="A goal or the name of a kept one; all kept ones without it."),
+        str | None, typer.Argument(metavar="[GOAL]", help="A goal or the name of a kept one; all kept ones without it.")
     ] = None
     add: Annotated[str | None, typer.Option("--add", metavar="NAME", help="Keep GOAL in meshforge.toml.")] = None
     remove: Annotated[str | None, typer.Option("--remove", metavar="NAME", help="Forget a kept goal.")] = None

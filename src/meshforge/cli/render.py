@@ -53,13 +53,7 @@ def render(given: RenderArguments) -> None:
     views = cast(list[rendering.View], [name.strip() for name in given.views.split(",")])  # which are checked below
     with progress(None, "drawing"):
         inspection.render(
-            mesh,
-            given.out,
-            views=views,
-            color_by=given.color_by,
-            size=size,
-            ghost=given.ghost,
-            names=given.names,
+            mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
         )
     remark(f"wrote {escape_name(str(given.out))}")
 

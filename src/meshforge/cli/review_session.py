@@ -15,13 +15,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from meshforge.cli.console import progress
-from meshforge.cli.review_answers import (
-    ScriptReply,
-    format_prompt,
-    format_question,
-    format_reply_help,
-    parse_reply,
-)
+from meshforge.cli.review_answers import ScriptReply, format_prompt, format_question, format_reply_help, parse_reply
 from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Orient, Program, to_canonical_frame

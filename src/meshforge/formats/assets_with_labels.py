@@ -94,13 +94,7 @@ def convert(
     mesh = to_mesh(asset)
     mesh = part_meshes(mesh, out) if one_file_a_hull else mesh
     saved = save(
-        mesh,
-        out,
-        link=link,
-        overwrite=overwrite,
-        names=names,
-        collision=collision,
-        urdf_capsules=urdf_capsules,
+        mesh, out, link=link, overwrite=overwrite, names=names, collision=collision, urdf_capsules=urdf_capsules
     )
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
 

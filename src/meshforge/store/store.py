@@ -205,11 +205,7 @@ class Store:
         write_all_atomically({self.layout.classes(asset): text for asset, text in texts.items()})
 
     def write_labels(
-        self,
-        asset: str,
-        hulls: Mapping[str, str],
-        labels: Mapping[str, symbolic.Label],
-        vocabulary: Sequence[str],
+        self, asset: str, hulls: Mapping[str, str], labels: Mapping[str, symbolic.Label], vocabulary: Sequence[str]
     ) -> None:
         """Write the labels of an asset, under the lock that the caller holds; without any label its file is removed.
 

@@ -13,15 +13,7 @@ import lxml.html
 import pytest
 from PIL import Image
 
-from meshforge.batch import (
-    Failed,
-    ReportAsset,
-    ReportHeader,
-    ReportOptions,
-    RunFigures,
-    RunSummary,
-    write_report,
-)
+from meshforge.batch import Failed, ReportAsset, ReportHeader, ReportOptions, RunFigures, RunSummary, write_report
 from meshforge.batch.outcome import Unchanged
 from meshforge.checks import Examination, Finding
 from meshforge.language import Program, RuleTrace, explain, show

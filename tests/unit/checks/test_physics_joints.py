@@ -64,12 +64,7 @@ def test_neighbours_may_overlap_at_an_axis_and_a_little(axis: str | None, depth:
 
 @pytest.mark.parametrize(
     ("low", "high", "wall", "severity"),
-    [
-        (0, 90, None, None),
-        (0, 90, 45, "error"),
-        (0, 90, 87, "warning"),
-        (0, 40, 60, None),
-    ],
+    [(0, 90, None, None), (0, 90, 45, "error"), (0, 90, 87, "warning"), (0, 40, 60, None)],
 )
 def test_a_door_must_come_through_its_range(low: int, high: int, wall: int | None, severity: str | None) -> None:
     """A door on the front of a cabinet, hinged at its right edge, and a post of the cabinet on its way."""

@@ -209,13 +209,7 @@ def test_the_options_are_those_of_the_search() -> None:
 
 ABOUT = LearningContext(Path("p"), assets=9, in_use=9, readable=9)
 FOUND = Found(
-    rules=(),
-    candidates=(),
-    tried=(),
-    seconds={},
-    program=Program(),
-    unambiguous=False,
-    overruled=("f.obj", "a.obj"),
+    rules=(), candidates=(), tried=(), seconds={}, program=Program(), unambiguous=False, overruled=("f.obj", "a.obj")
 )
 
 

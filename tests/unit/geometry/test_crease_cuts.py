@@ -51,11 +51,7 @@ def test_a_ring_of_a_wall_is_not_shaved_off() -> None:
 
 @pytest.mark.parametrize(
     ("solid", "at", "count"),
-    [
-        (ELBOW, 0.4, 2),
-        (block((1.0, 0.2, 0.3), (0, 0, 0)), 0.4, 1),
-        (ELBOW, -0.45, 1),
-    ],
+    [(ELBOW, 0.4, 2), (block((1.0, 0.2, 0.3), (0, 0, 0)), 0.4, 1), (ELBOW, -0.45, 1)],
     ids=["where the foot begins", "nothing to gain", "little to gain"],
 )
 def test_a_loose_piece_is_cut_where_that_makes_it_tight(solid: Manifold, at: float, count: int) -> None:

@@ -44,10 +44,7 @@ def prism(outline: list[tuple[float, float]], triangles: list[tuple[int, int, in
     return np.array(vertices), np.array(faces)
 
 
-L_SHAPE = prism(
-    [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)],
-    [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)],
-)
+L_SHAPE = prism([(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)], [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)])
 CUBE = prism([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
 
 

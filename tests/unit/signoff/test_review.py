@@ -10,14 +10,7 @@ import pytest
 from meshforge.common import ProgramError
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
-from meshforge.signoff import (
-    THRESHOLD,
-    Assessment,
-    ExclusionReason,
-    ReviewQuestion,
-    ReviewState,
-    review_family,
-)
+from meshforge.signoff import THRESHOLD, Assessment, ExclusionReason, ReviewQuestion, ReviewState, review_family
 from meshforge.signoff.assessment import NO_EDIT
 from meshforge.signoff.program_run import run_on_asset
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG

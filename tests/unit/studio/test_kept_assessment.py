@@ -14,14 +14,7 @@ from meshforge.common import relative_name
 from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
-from meshforge.store import (
-    ANSWERS,
-    AnswerEvent,
-    AssessmentFile,
-    ExclusionEvent,
-    SnoozeEvent,
-    VerdictEvent,
-)
+from meshforge.store import ANSWERS, AnswerEvent, AssessmentFile, ExclusionEvent, SnoozeEvent, VerdictEvent
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync

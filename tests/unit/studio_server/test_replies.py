@@ -15,15 +15,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.language import Program
 from meshforge.project import Project
-from meshforge.signoff import (
-    Assessment,
-    HullPlace,
-    ReviewChoice,
-    ReviewQuestion,
-    ReviewReply,
-    ReviewState,
-    question_of,
-)
+from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, ReviewState, question_of
 from meshforge.store import History
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.base import make_edit

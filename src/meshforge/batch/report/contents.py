@@ -231,12 +231,7 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
     checks, goals = _draw_checks(asset, after or before), tuple(_read_goal_pictures(asset))
     if after is None or asset.status == "unchanged" or not (before.hulls or after.hulls):
         image = render(
-            before,
-            color_by=color_by,
-            size=PICTURE_SIZE,
-            vocabulary=options.vocabulary,
-            background=None,
-            legend=False,
+            before, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None, legend=False
         )
         return AssetPictures(to_data_url(image), checks=checks, goals=goals)
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)

@@ -46,11 +46,7 @@ class Swings(Goal):
     leaf: Extractor = field(metadata={"argument": ExtractorArgument(), "title": "What moves"})
     about: Extractor | None = field(
         default=None,
-        metadata={
-            "argument": OptionArgument("about", ExtractorArgument()),
-            "title": "About",
-            "omitted": "its joint",
-        },
+        metadata={"argument": OptionArgument("about", ExtractorArgument()), "title": "About", "omitted": "its joint"},
     )
     axis: Direction | None = field(
         default=None, metadata={"argument": OptionArgument("axis", DirectionArgument()), "title": "Axis"}
@@ -59,8 +55,7 @@ class Swings(Goal):
         default=None, metadata={"argument": OptionArgument("angle", QuantityArgument("deg")), "title": "Angle"}
     )
     ignore: Extractor | None = field(
-        default=None,
-        metadata={"argument": OptionArgument("ignore", ExtractorArgument()), "title": "What may be met"},
+        default=None, metadata={"argument": OptionArgument("ignore", ExtractorArgument()), "title": "What may be met"}
     )
 
     def conflict(self) -> str | None:

@@ -259,12 +259,7 @@ def list_sweeps(mesh: SymbolicMesh, tree: JointTree, least: float) -> Iterator[J
 
 
 def _watch(
-    moving: Sequence[Hull],
-    still: Sequence[Hull],
-    way: Place,
-    least: float,
-    motion: Motion,
-    apart: set[frozenset[str]],
+    moving: Sequence[Hull], still: Sequence[Hull], way: Place, least: float, motion: Motion, apart: set[frozenset[str]]
 ) -> Iterator[tuple[float, list[Touch]]]:
     from meshforge.checks.physics.motion import watch_joint  # lazy: MuJoCo takes 0.3 s
 

@@ -124,7 +124,4 @@ class JobChanged(Wire):
     job: Job
 
 
-Event = Annotated[
-    Start | Hello | CardsChanged | AssetsChanged | StateChanged | JobChanged,
-    Field(discriminator="kind"),
-]
+Event = Annotated[Start | Hello | CardsChanged | AssetsChanged | StateChanged | JobChanged, Field(discriminator="kind")]
