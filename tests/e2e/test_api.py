@@ -39,7 +39,7 @@ def test_hello_tells_everything(studio: Studio) -> None:
     assert hello["program"]["text"] == hello["outcome"]["program"]
     assert not hello["program"]["by_hand"]
     assert hello["history"] == {"undo": None, "redo": None, "undoable": 0, "redoable": 0}
-    assert studio.until(lambda hello: hello["project"]["next"]["kind"] == "apply")
+    assert studio.until(lambda hello: hello["project"]["next"]["kind"] == "answer")
 
 
 @pytest.mark.parametrize(

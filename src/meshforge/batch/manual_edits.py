@@ -31,9 +31,7 @@ def selections_of(meant: Iterable[RuleSelection], program: language.Program) -> 
     """Return what rules of a program are to select on an asset, by their numbers; nothing where its rules do something
     else than those that a person spoke of."""
     known = {one.rule: one for one in meant}
-    actions = {
-        number: action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
-    }
+    actions = {k: action_text_without_each(rule.action, rule.label) for k, rule in enumerate(program.rules, 1)}
     if {number: one.action for number, one in known.items()} != actions:
         return {}
     return {number: frozenset(one.select) for number, one in known.items()}

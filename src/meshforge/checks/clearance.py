@@ -65,9 +65,7 @@ class Clearance(Measure):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """The regions that matter."""
-        return tuple(
-            _to_finding(region, self) for region in self.regions if region.litres >= LEAST_REGION_SHARE * self.box
-        )
+        return tuple(_to_finding(one, self) for one in self.regions if one.litres >= LEAST_REGION_SHARE * self.box)
 
     @property
     def description(self) -> str:

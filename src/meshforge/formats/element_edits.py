@@ -276,9 +276,7 @@ def assign_names(outputs: Sequence[OutputElement], *, unique: bool = False) -> d
     for _ in range(4):
         for output, _names in _find_misread(outputs):
             output.name = name_attribute_of(output)
-    authored = {
-        output.source.attributes.get("name") for output in outputs if output.source is not None and not output.copy
-    }
+    authored = {output.source.attributes.get("name") for output in outputs if output.source and not output.copy}
     taken = set[str | None]()
     for output in outputs if unique else ():
         is_own = output.source is not None and not output.copy and output.name == output.source.attributes.get("name")

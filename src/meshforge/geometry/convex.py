@@ -182,9 +182,7 @@ def prune_vertices(
         if made is None:
             return None
         vertices, faces = kept[made[0]], made[1]
-        spare = _find_spare_vertices(unit[vertices], faces, altitude) or _find_flat_vertices(
-            unit[vertices], faces, altitude
-        )
+        spare = _find_spare(unit[vertices], faces, altitude) or _find_flat_vertices(unit[vertices], faces, altitude)
         if len(spare) == 0:
             return vertices, faces
         kept = np.delete(vertices, spare)
@@ -207,7 +205,7 @@ def _find_flat_vertices(vertices: Floats, faces: Ints, angle: float) -> list[int
     return [int(k) for k in np.flatnonzero(np.linalg.eigvalsh(spread)[:, 0] < angle * angle)]
 
 
-def _find_spare_vertices(vertices: Floats, faces: Ints, altitude: float) -> list[int]:
+def _find_spare(vertices: Floats, faces: Ints, altitude: float) -> list[int]:
     """Vertices that can go at once, each next to an edge whose ends stay."""
     heights, apex = lowest_altitudes(vertices, faces)
     spare: list[int] = []

@@ -92,9 +92,7 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
             if fault:
                 what = f"made a hull of {join_names([hull.name for hull in made.sources], 3)} that"
                 raise plugin.error(f"{what} {geometry.describe_fault(fault)}")
-            if not {made.main_source.name, *(hull.name for hull in made.sources)} <= {
-                hull.name for hull in group.hulls
-            }:
+            if not {made.main_source.name, *(one.name for one in made.sources)} <= {one.name for one in group.hulls}:
                 raise plugin.error("named hulls that it was not given as the sources of one that it made")
 
 

@@ -62,9 +62,7 @@ class _Line(JsonFile):
     @model_serializer(mode="wrap")
     def _leave_out_defaults(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         fields = type(self).model_fields
-        empty = {
-            fields[name].serialization_alias or name for name in fields if getattr(self, name) == fields[name].default
-        }
+        empty = {one.serialization_alias or name for name, one in fields.items() if getattr(self, name) == one.default}
         found: dict[str, Any] = write(self)
         kind = {"event": found["event"]} if "event" in found else {}
         return {**kind, **{name: value for name, value in found.items() if name not in empty}}

@@ -53,7 +53,7 @@ def write_usd(asset: Asset, document: stage.UsdDocument, name: str, mass: Mass) 
         notes = _keep_masses(edit, sources) if mass == "keep" else []
         return [*notes, *edit.notes, *note_renames(edit.names)], edit.names
 
-    return _edit_root_layer(asset, document, PurePosixPath(name), author if edited or pairs else None)
+    return _edit_root(asset, document, PurePosixPath(name), author if edited or pairs else None)
 
 
 def add_usd_colliders(asset: Asset, document: stage.UsdDocument, name: str) -> Output:
@@ -71,12 +71,10 @@ def add_usd_colliders(asset: Asset, document: stage.UsdDocument, name: str) -> O
             raise nothing_collides_error(asset)
         return edit.notes, {}
 
-    return _edit_root_layer(asset, document, PurePosixPath(name), author)
+    return _edit_root(asset, document, PurePosixPath(name), author)
 
 
-def _edit_root_layer(
-    asset: Asset, document: stage.UsdDocument, name: PurePosixPath, author: LayerAuthor | None
-) -> Output:
+def _edit_root(asset: Asset, document: stage.UsdDocument, name: PurePosixPath, author: LayerAuthor | None) -> Output:
     """The files of a stage with an edit of a copy of its root layer; without one, the same in the form of a name.
 
     Raises AssetError: a file changed since the asset was read.

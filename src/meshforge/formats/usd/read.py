@@ -38,9 +38,7 @@ def read_usd(path: Path) -> Asset:
         raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
     more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
     notes = (*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more)
-    layers = tuple(
-        text for text in missing if Path(text).suffix.lower() in (*stage.LAYER_SUFFIXES, stage.PACKAGE_SUFFIX)
-    )
+    layers = tuple(one for one in missing if Path(one).suffix.lower() in (*stage.LAYER_SUFFIXES, stage.PACKAGE_SUFFIX))
     return replace(asset, files=files, missing=missing, needed=layers, notes=notes)
 
 

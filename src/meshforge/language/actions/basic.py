@@ -128,9 +128,7 @@ class Scale(Action):
         offset = group.bounds.center * (1.0 - factors)
         linear = np.diag(factors)
         with np.errstate(all="ignore"):  # what grows beyond all numbers is refused where made shapes are verified
-            return GroupEdit(
-                tuple(NewShape(hull.shape.transform(linear, offset), hull, (hull,)) for hull in group.hulls)
-            )
+            return GroupEdit(tuple(NewShape(one.shape.transform(linear, offset), one, (one,)) for one in group.hulls))
 
     def phrase(self, whose: str) -> str:
         where = "in every direction" if self.axis == "all" else f"along {self.axis}"
@@ -147,9 +145,7 @@ class Shrink(Action):
 
     def edit(self, group: HullGroup) -> GroupEdit:
         return GroupEdit(
-            tuple(
-                NewShape(geometry.shrink(hull.shape, self.distance, hull.name), hull, (hull,)) for hull in group.hulls
-            )
+            tuple(NewShape(geometry.shrink(one.shape, self.distance, one.name), one, (one,)) for one in group.hulls)
         )
 
     def phrase(self, whose: str) -> str:
