@@ -1,4 +1,4 @@
-"""A newcomer's walk through the studio, from a folder without labels to signed off: one sheet of pictures of six windows.
+"""A newcomer's walk through the studio, from a folder without labels to signed off, as one sheet of pictures.
 
 Run as `python -m script.studio_walk FILE`; the walk is written down in docs/walk.md.
 """
