@@ -117,7 +117,7 @@ def _sign_off(page: Page, _: Path) -> None:
             break
         page.keyboard.press("u")
         page.keyboard.press("y")
-        page.wait_for_timeout(2500)
+        page.wait_for_timeout(1500)
     page.keyboard.press("Alt+4")
 
 

@@ -176,7 +176,7 @@ class Pointer(Expert):
             stepped(self.person, step)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", ["eight real chairs", pytest.param("14 tables", marks=pytest.mark.long)])
 def test_a_family_takes_few_acts(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser) -> None:
     monkeypatch.chdir(tmp_path)  # the folder that the page proposes for the project lies here
     family, source = FAMILIES[name], tmp_path / "source"

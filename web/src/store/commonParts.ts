@@ -68,9 +68,11 @@ export function cutMiddle(name: string, most: number): string {
   return name.length > most ? `${name.slice(0, most - 1 - end)}…${name.slice(name.length - end)}` : name;
 }
 
-/** A name on two lines of so many letters: cut in its middle where it is longer, broken after a sign where both lines hold it. */
+/** A name on two lines of so many letters: cut in its middle where it is longer, broken after a sign where both lines hold it,
+ * else where the first line is full. */
 export function wrapName(name: string, letters: number): string {
   const shown = cutMiddle(name, 2 * letters);
   const at = shown.slice(0, letters).search(/[^/_.\-~: ]*$/);
-  return shown.length > letters && shown.length - at <= letters ? `${shown.slice(0, at)}\u200b${shown.slice(at)}` : shown;
+  const end = shown.length - at <= letters ? at : letters;
+  return shown.length > letters ? `${shown.slice(0, end)}\u200b${shown.slice(end)}` : shown;
 }
