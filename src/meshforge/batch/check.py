@@ -169,7 +169,9 @@ def write_fixed(mesh: SymbolicMesh, base: Path, out: Path, *, overwrite: bool = 
     be written over (this one unless `overwrite`), or the format cannot hold the mesh.
     """
     if mesh.asset is None or plain_path(out) == plain_path(base):
-        raise AssetError("the output folder is that of the assets", where=str(out), remedy="Choose another --out.")
+        raise AssetError(
+            "the output folder is the folder of the assets", where=str(out), remedy="Choose another --out."
+        )
     saved = save(mesh, output_path_of(mesh.asset, base, plain_path(out)), overwrite=overwrite)
     if mesh.labels:
         renamed = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
