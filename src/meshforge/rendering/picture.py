@@ -178,7 +178,7 @@ def build_subject(
 
 def up_axis(mesh: SymbolicMesh, up: Up | None = None) -> Up:
     """Return the axis that points up in a picture: the given one, or that of the mesh's file or project, or Z."""
-    return up or ("Y" if mesh.asset and (mesh.asset.seen_up or mesh.asset.up) == "y" else "Z")
+    return up or ("Y" if mesh.asset and (mesh.asset.view_up or mesh.asset.up) == "y" else "Z")
 
 
 def render_meshes_of(hulls: Sequence[Hull]) -> list[RenderMesh]:

@@ -234,7 +234,7 @@ class AssetFiles:
     def to_mesh(self, source: symbolic.Asset) -> symbolic.SymbolicMesh:
         """Return the asset that was read as the project sees it, without labels."""
         known = formats.format_named(source.format)
-        mesh = symbolic.SymbolicMesh.of(source).with_seen_up(None if known and known.up else self.up)
+        mesh = symbolic.SymbolicMesh.of(source).with_view_up(None if known and known.up else self.up)
         return mesh if self.contact is None else replace(mesh, epsilon=self.contact)
 
     def read_labels(self) -> symbolic.LabelFile:

@@ -94,7 +94,7 @@ class Settings(BaseModel):
     goals: dict[str, str] = {}
 
     @property
-    def seen_up(self) -> Literal["y", "z"] | None:
+    def view_up(self) -> Literal["y", "z"] | None:
         """The axis as assets have it."""
         return "y" if self.up == "Y" else "z" if self.up else None
 

@@ -158,7 +158,7 @@ class Store:
 
     def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
         """Return what each of some assets is read from, for reading it in another process."""
-        layout, contact, up = self.layout, self.settings.thresholds.contact, self.settings.seen_up
+        layout, contact, up = self.layout, self.settings.thresholds.contact, self.settings.view_up
         return tuple(
             AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), layout.classes(a), contact, up)
             for a in assets

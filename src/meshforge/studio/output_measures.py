@@ -177,7 +177,7 @@ def read_pair(work: MeasureTask) -> OutputPair:
     if not stamp.is_whole(project.layout.edited):
         raise ProjectError("files of its output are gone or changed", where=asset, remedy=_REMEDY)
     before, after = project.mesh(asset), load(project.layout.edited / stamp.out)
-    return OutputPair(before, after.with_seen_up(before.asset.seen_up) if before.asset else after)
+    return OutputPair(before, after.with_view_up(before.asset.view_up) if before.asset else after)
 
 
 def _is_unchanged(project: Project, asset: str, stamp: Stamp) -> bool:

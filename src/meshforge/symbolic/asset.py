@@ -228,7 +228,7 @@ class Asset:
     missing: references to files that are not there, as written in the document; needed: those of them without which
     something may not collide, or the engine of the format refuses all of it.
     notes: what a user should know about how the file was read, and what it is (`FileNote`); up: the axis that its
-    format says points up; seen_up: what points up in views and pictures alone, None for `up`.
+    format says points up; view_up: what points up in views and pictures alone, None for `up`.
     mechanism: joints and masses, empty where the format has none.
     name_problems: names in it that an engine does not take as they are meant.
     one_file_a_hull: whether a writer gives each piece of a collision mesh a file and an element of its own.
@@ -247,7 +247,7 @@ class Asset:
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
-    seen_up: Literal["y", "z"] | None = None
+    view_up: Literal["y", "z"] | None = None
     name_problems: tuple[NameProblem, ...] = ()
     one_file_a_hull: bool = False
 

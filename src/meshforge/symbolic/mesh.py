@@ -198,9 +198,9 @@ class SymbolicMesh:
             edited.set_known_graph(contact_graph([h.shape for h in edited.hulls], reach, self.known_graph, kept))
         return edited
 
-    def with_seen_up(self, up: Literal["y", "z"] | None) -> Self:
-        """Return the mesh with another `seen_up` of its asset."""
-        return replace(self, asset=replace(self.asset, seen_up=up)) if self.asset else self
+    def with_view_up(self, up: Literal["y", "z"] | None) -> Self:
+        """Return the mesh with another `view_up` of its asset."""
+        return replace(self, asset=replace(self.asset, view_up=up)) if self.asset else self
 
     def to_asset(self) -> Asset:
         """Return the asset with the hulls of this mesh as its geoms. Raises MeshForgeError for one made in memory."""

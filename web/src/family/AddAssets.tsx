@@ -4,7 +4,7 @@ import { type RefObject, useEffect, useRef, useState } from "react";
 import { addAssets, type PlacedFile, stopUpload, useUpload } from "../store/upload";
 import { Button } from "../ui/Button";
 import { Menu } from "../ui/Menu";
-import { useCalled } from "../ui/useCalled";
+import { useCalled } from "../store/calls";
 import css from "./adding.module.css";
 
 export function AddMenu({ words = "Add" }: { words?: string }) {

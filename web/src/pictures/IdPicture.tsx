@@ -33,14 +33,14 @@ export function IdPicture({ label, colors, fill, width, className, ...source }: 
       setDrawn(true);
     });
   }, [map, current, paint, look]);
-  const said = label ?? "Picture of an asset";
+  const text = label ?? "Picture of an asset";
   return (
     <div
       className={[css.picture, className].filter(Boolean).join(" ")}
       style={width === undefined ? undefined : { width }}
-      role={said ? "img" : undefined}
-      aria-label={said || undefined}
-      aria-hidden={said ? undefined : true}
+      role={text ? "img" : undefined}
+      aria-label={text || undefined}
+      aria-hidden={text ? undefined : true}
       data-state={drawn ? "there" : failed ? "failed" : "coming"}
     >
       <canvas ref={canvas} aria-hidden />

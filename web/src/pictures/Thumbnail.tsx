@@ -48,9 +48,9 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned,
     [marked, of, confidence],
   );
   if (version === null) return <Blank size={size} />;
-  const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
+  const text = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
   const url = up ? api.withUp(asset, up, version) : turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);
-  return <IdPicture url={url} label={said} colors={colors} fill={fill} width={size} />;
+  return <IdPicture url={url} label={text} colors={colors} fill={fill} width={size} />;
 });
 
 /** Keeps the place of a picture that is not there. */

@@ -1,5 +1,6 @@
 // Calls for a place on the page, such as the card of the question or the button that does the next step: it takes the focus
 // once it is there.
+import { useEffect, useEffectEvent } from "react";
 import { create } from "zustand";
 
 export type Place = "card" | "vocabulary" | "apply" | "export" | "add";
@@ -13,4 +14,13 @@ export function takeCall(place: Place): boolean {
   const isCalled = useCalls.getState().place === place;
   if (isCalled) useCalls.setState({ place: null });
   return isCalled;
+}
+
+/** Does something, such as taking the focus, when a place is called for. */
+export function useCalled(place: Place, does: () => void): void {
+  const calls = useCalls((state) => state.count);
+  const act = useEffectEvent(does);
+  useEffect(() => {
+    if (takeCall(place)) act();
+  }, [calls, place]);
 }

@@ -7,7 +7,7 @@ export function useAnswer<T>(of: unknown, ask: (stop: AbortSignal) => Promise<T>
   const askNow = useEffectEvent(ask);
   useEffect(() => {
     const stop = new AbortController();
-    const take = (given: T) => stop.signal.aborted || setAnswer(given);
+    const take = (found: T) => stop.signal.aborted || setAnswer(found);
     const fail = (error: unknown) => {
       if (!stop.signal.aborted) throw error;
     };

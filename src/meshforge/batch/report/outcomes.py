@@ -77,9 +77,9 @@ def compare_outcomes(
                 checked = result
         else:
             was, pose = to_canonical_frame(was, program.orient, program.contact)
-            was = was.with_seen_up("z") if program.orient and program.orient.names_z else was
+            was = was.with_view_up("z") if program.orient and program.orient.names_z else was
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
-        now = now.with_seen_up(was.asset.seen_up) if was.asset else now
+        now = now.with_view_up(was.asset.view_up) if was.asset else now
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, _describe(line)) for line in outcome.rules)
         alarms_of = (alarms or {}).get(name, ())
         yield ReportAsset(name, was, now, trace, outcome.status, None, is_shown, notes, checked, alarms_of)

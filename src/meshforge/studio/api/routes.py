@@ -144,7 +144,7 @@ def get_picture(
 def get_turned(session: CurrentSession, asset: str, orient: str = "", up: Literal["y", "z"] | None = None) -> Response:
     """Return the thumbnail of an asset as a directive turns it, or with an axis up."""
     mesh = session.mesh(asset)
-    mesh = mesh.with_seen_up(up) if up else mesh
+    mesh = mesh.with_view_up(up) if up else mesh
     turn = Program.parse(f"orient {orient}\n").orient if orient else None
     pose, _ = assets.compute_upright(session.project, mesh, turn)
     return Response(assets.draw_thumbnail(mesh, pose), media_type="image/png")

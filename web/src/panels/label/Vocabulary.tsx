@@ -9,7 +9,7 @@ import { listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { IconButton } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
-import { useCalled } from "../../ui/useCalled";
+import { useCalled } from "../../store/calls";
 import { useReorder } from "../../ui/useReorder";
 import css from "./label.module.css";
 import { LabelRow } from "./LabelRow";

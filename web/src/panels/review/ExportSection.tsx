@@ -10,7 +10,7 @@ import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Section } from "../../ui/Section";
-import { useCalled } from "../../ui/useCalled";
+import { useCalled } from "../../store/calls";
 import { JobLines, JobNote, JobProgress } from "../../ui/JobProgress";
 import css from "./review.module.css";
 

@@ -2,7 +2,7 @@
 import { Play } from "lucide-react";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { SignOff } from "../../family/Sureness";
-import { useCalls } from "../../store/calls";
+import { useCalled, useCalls } from "../../store/calls";
 import { openGoals } from "../../store/goals";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
@@ -12,7 +12,6 @@ import { countText } from "../../store/words";
 import { useLayout } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Check, Choice } from "../../ui/fields";
-import { useCalled } from "../../ui/useCalled";
 import type { Card, Job } from "../../wire";
 import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
