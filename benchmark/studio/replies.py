@@ -30,7 +30,7 @@ if (event.kind === 'reach' && event.reach.length) window.shown.reach += 1;
 _REPLY = """
 async ([token, edit, patience]) => {
   const frame = () => new Promise(requestAnimationFrame);
-  const wanted = new Set(edit.hulls.map((hull) => hull.asset));
+  const wanted = new Set(Object.keys(edit.hulls));
   window.shown = { cards: new Set(), reach: 0 };
   const began = performance.now();
   const headers = { 'Content-Type': 'application/json', Authorization: `Bearer ${token}` };
