@@ -71,16 +71,15 @@ class Expert:
     def _go_to_card(self, question: dict[str, Any]) -> None:
         """Press the key of the card until it is there: a busy page may lose one."""
         card = self.person.page.locator(f'[id="question-{question["id"]}"]')
-        card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
         if self.person.page.locator(f"{_CARDS}:focus-within").count():  # it keeps the focus from card to card
-            card.first.wait_for()
+            card.wait_for()
             return
         for timeout in (5_000, 10_000, 60_000):
             self.person.press("u")
             with suppress(TimeoutError):
-                card.first.wait_for(timeout=timeout)
+                card.wait_for(timeout=timeout)
                 return
-        card.first.wait_for()
+        card.wait_for()
 
     def _answer(self, question: dict[str, Any]) -> None:
         kind, asset, rule = question["kind"], question["asset"], (question["rule"] or 1) - 1

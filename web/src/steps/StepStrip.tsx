@@ -87,7 +87,7 @@ function moveFocus(event: KeyboardEvent, list: HTMLElement | null): void {
 /** The edits by hand of an asset, which are done again after the program. */
 function Corrections({ view }: { view: AssetView }) {
   if (!view.manual_edits.length) {
-    return <div className={css.line}>No edits by hand: this is the program's result</div>;
+    return <div className={css.line}>No edits by hand on this asset</div>;
   }
   return (
     <ol className={css.strip} aria-label="Edits by hand of this asset">

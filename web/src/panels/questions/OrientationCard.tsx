@@ -16,8 +16,8 @@ export function OrientationCard({ question }: { question: ReviewQuestionView }) 
   const [later, show] = [() => void putOff(question), () => showAsked(question)];
   const doing = useCardKeys({ choices: picks, later, show, ...(accept && { accept }), ...(reject && { reject }) });
   return (
-    <section className={css.card} aria-labelledby="asked">
-      <h3 id="asked">{question.text}</h3>
+    <section className={css.card} aria-labelledby={`question-${question.id}`}>
+      <h3 id={`question-${question.id}`}>{question.text}</h3>
       <div className={css.choices}>
         {choices.map(({ id, text, orient }, k) => (
           <button key={id} type="button" className={css.choice} data-default={!orient} aria-keyshortcuts={orient ? "Y" : "N"} onClick={doing(picks[k])}>

@@ -25,17 +25,15 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
   const point = () => question.hulls.length > 0 && setHighlight({ what: question.id, assets: places });
   const [exceptions, setExceptions] = useState<Exceptions>({});
   const worth = worthText(question);
+  const [, asked = question.text, why] = /^(.*?\?) (.+)$/s.exec(question.text) ?? [];
   return (
-    <section
-      className={css.card}
-      aria-labelledby="asked"
-      {...whilePointed(point, () => setHighlight(null))}
-    >
+    <section className={css.card} aria-labelledby={`question-${question.id}`} {...whilePointed(point, () => setHighlight(null))}>
       <GoalPictures question={question} />
-      <h3 id="asked">{question.text}</h3>
+      <h3 id={`question-${question.id}`}>{asked}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
       {canBeRight(question) && <ResultPictures asset={question.asset} drawn={question.goals.length > 0} />}
       {question.kind === "result" ? <ResultReplies question={question} /> : <Replies question={question} exceptions={exceptions} />}
+      {why && <p className={css.dim}>{why}</p>}
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
   );
