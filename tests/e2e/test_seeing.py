@@ -83,3 +83,26 @@ def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_
         changed = pixels(person)[np.abs(pixels(person) - before).max(axis=2) > 60]
         assert (changed.min(axis=1) > 225).sum() > 100, "a light line"
         assert (changed.max(axis=1) < 50).sum() > 100, "on a dark one"
+
+
+def test_hulls_are_selected_by_their_bodies_in_a_tree(tmp_path: Path, browser: Browser) -> None:
+    geoms = [f'<geom name="{name}" type="box" size=".1 .1 .1" pos="{k} 0 0"/>' for k, name in enumerate("abcd")]
+    asset = tmp_path / "two.xml"
+    bodies = f'<body name="frame">{geoms[0]}{geoms[1]}</body><body name="door">{geoms[2]}{geoms[3]}</body>'
+    asset.write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    with visiting(tmp_path, Project.create(tmp_path / "project", [asset]), browser) as (_, person):
+        person.drawn("two.xml")
+        tree = person.page.get_by_role("treegrid", name="Hulls")
+        tree.focus()
+        for keys, hulls in (
+            (("ArrowDown", "ArrowLeft"), "ab"),  # the first body, closed
+            (("Shift+ArrowDown",), "abcd"),
+            (("ArrowDown",), "c"),
+            (("Shift+B",), "cd"),
+            (("ArrowLeft", "Space"), ""),
+        ):
+            person.press(*keys)
+            selected = person.page.evaluate("window.meshforgeViewport.selected()")
+            assert "".join(sorted(name[-1] for name in selected)) == hulls, keys
+        levels = tree.locator("[aria-level='1']").all()
+        assert [row.get_attribute("aria-expanded") for row in levels] == ["false", "true"]

@@ -9,7 +9,7 @@ import {
   showAll,
   withConnected,
   withNeighbours,
-  withSameLabel,
+  withSame,
 } from "../store/selection";
 import { selectSimilar } from "../store/similar";
 import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
@@ -86,7 +86,15 @@ export const selectCommands = commandsOf("Select", [
     title: "Select all hulls with the same label",
     keys: ["Shift+L"],
     enabled: hasSelection,
-    run: () => changeSelection(withSameLabel),
+    run: () => changeSelection((scene, selection) => withSame("label", scene, selection)),
+  },
+  {
+    id: "select-body",
+    title: "Select all hulls of the same body",
+    keys: ["Shift+B"],
+    words: "link part",
+    enabled: hasSelection,
+    run: () => changeSelection((scene, selection) => withSame("body", scene, selection)),
   },
   {
     id: "select-similar",

@@ -1,31 +1,81 @@
-// One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
+// One hull or body in the list; it subscribes to its own hover and selection, so that the list never renders for them.
+import { ChevronDown, ChevronRight } from "lucide-react";
 import { memo } from "react";
 import type { Tone } from "../pictures/hullColors";
 import { volumeText } from "../store/units";
 import { sureText } from "../store/assessment";
-import { sourceText } from "../store/words";
+import { clearStepHighlight, highlightStep } from "../store/highlight";
+import { countText, sourceText } from "../store/words";
 import { hover, useUnit, useWorkspace } from "../store/workspace";
 import { Name } from "../ui/Name";
 import { Swatch } from "../ui/Section";
+import { whilePointed } from "../ui/whilePointed";
+import type { AssetView, NonConvexView } from "../wire";
 import css from "./hulls.module.css";
-import type { Row } from "./rows";
-import type { NonConvexView } from "../wire";
+import type { Line, Row } from "./rows";
 
 interface Place {
   readonly index: number;
   readonly top: number;
 }
 
-interface HullRowProps extends Place {
-  readonly row: Row;
-  readonly tone: Tone;
+interface InTree extends Place {
   /** What tells its name from the others. */
   readonly short: string;
   /** Whether the keys are at it. */
   readonly active: boolean;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, short, active, index, top }: HullRowProps) {
+interface BodyRowProps extends InTree {
+  readonly line: Extract<Line, { body: string }>;
+  readonly view: AssetView;
+  readonly onTurn: () => void;
+}
+
+/** A body, which stands for all its hulls. */
+export const BodyRow = memo(function BodyRow({ line: { key, body, names, open }, view, short, active, index, top, onTurn }: BodyRowProps) {
+  const selected = useWorkspace(({ selection }) => names.filter((name) => selection.has(name)).length);
+  return (
+    <div
+      id={`hull-${index}`}
+      role="row"
+      aria-rowindex={index + 2}
+      aria-level={1}
+      aria-expanded={open}
+      aria-selected={selected === names.length}
+      className={css.body}
+      data-active={active}
+      data-name={key}
+      style={{ transform: `translateY(${top}px)` }}
+      {...whilePointed(() => highlightStep(view, names), clearStepHighlight)}
+    >
+      <span role="gridcell" className={css.name} title={body}>
+        <i
+          aria-hidden
+          onClick={(event) => {
+            event.stopPropagation();
+            onTurn();
+          }}
+        >
+          {open ? <ChevronDown size={13} /> : <ChevronRight size={13} />}
+        </i>
+        <Name text={body} own={short} />
+      </span>
+      <span role="gridcell" className={css.number}>
+        {selected ? `${selected} of ${countText(names.length, "hull")} selected` : countText(names.length, "hull")}
+      </span>
+    </div>
+  );
+});
+
+interface HullRowProps extends InTree {
+  readonly row: Row;
+  readonly tone: Tone;
+  /** 2 below a body; undefined in a list without bodies. */
+  readonly level: number | undefined;
+}
+
+export const HullRow = memo(function HullRow({ row, tone, short, level, active, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
@@ -36,6 +86,7 @@ export const HullRow = memo(function HullRow({ row, tone, short, active, index, 
       id={`hull-${index}`}
       role="row"
       aria-rowindex={index + 2}
+      aria-level={level}
       aria-selected={selected}
       className={css.row}
       data-pointed={pointed}

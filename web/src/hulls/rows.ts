@@ -1,4 +1,4 @@
-// The rows of the list of hulls: found by a word, in the order of a column.
+// The rows of the list of hulls: found by a word, in the order of a column, below their bodies where there are several.
 import type { SceneHull } from "../store/scenes";
 
 type Column = "name" | "label" | "volume" | "shape" | "neighbours";
@@ -44,6 +44,28 @@ export function rowsOf(
   return rows.sort((a, b) => sign * COMPARE[column](a, b));
 }
 
+/** A row of the tree, by a key that no other has: a body with its hulls that are found, or a hull. */
+export type Line =
+  | { readonly key: string; readonly body: string; readonly names: readonly string[]; readonly open: boolean }
+  | { readonly key: string; readonly row: Row };
+
+/** The rows below their bodies, in the order of `bodies`; of a body that is in `closed` only itself; the rows alone where all
+ * hulls are of one body. */
+export function linesOf(rows: readonly Row[], bodies: readonly string[], closed: ReadonlySet<string>): Line[] {
+  const lines = (some: readonly Row[]): Line[] => some.map((row) => ({ key: row.hull.name, row }));
+  const unique = [...new Set(bodies)];
+  if (unique.length < 2) return lines(rows);
+  return unique.flatMap((body) => {
+    const own = rows.filter(({ hull }) => hull.body === body);
+    if (!own.length) return [];
+    const open = !closed.has(body);
+    return [{ key: `body ${body}/`, body, names: own.map(({ hull }) => hull.name), open }, ...(open ? lines(own) : [])];
+  });
+}
+
+/** The hulls that a row stands for. */
+export const namesOf = (line: Line): readonly string[] => ("row" in line ? [line.key] : line.names);
+
 /** Whether each word of a search is in one of some texts. */
 export function matchesSearch(search: string, ...texts: string[]): boolean {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
@@ -61,8 +83,8 @@ const COMPARE: Readonly<Record<Column, (a: Row, b: Row) => number>> = {
   neighbours: (a, b) => a.neighbours - b.neighbours,
 };
 
-/** The names between two of a list, both included; only the second where the first is not in it. */
-export function namesBetween(listed: readonly string[], from: string | null, to: string): string[] {
+/** The keys between two of a list, both included; only the second where the first is not in it. */
+export function keysBetween(listed: readonly string[], from: string | null, to: string): string[] {
   const [a, b] = [from === null ? -1 : listed.indexOf(from), listed.indexOf(to)];
   return a < 0 || b < 0 ? [to] : listed.slice(Math.min(a, b), Math.max(a, b) + 1);
 }

@@ -9,17 +9,17 @@ import {
   showAll,
   withConnected,
   withNeighbours,
-  withSameLabel,
+  withSame,
 } from "./selection";
 import { initialWorkspace, useWorkspace } from "./workspace";
 
 const scene = {
   hulls: [
-    { name: "top", label: "panel" },
-    { name: "leg", label: "leg" },
-    { name: "foot", label: "leg" },
-    { name: "loose", label: null },
-    { name: "other", label: null },
+    { name: "top", label: "panel", body: "base" },
+    { name: "leg", label: "leg", body: "base" },
+    { name: "foot", label: "leg", body: "base" },
+    { name: "loose", label: null, body: "base" },
+    { name: "other", label: null, body: "base" },
   ],
   contacts: [
     ["top", "leg"],
@@ -41,8 +41,9 @@ test("a component goes through all that hangs together", () => {
 });
 
 test("alike are hulls with the labels of the selection, or all without one", () => {
-  expect(sorted(withSameLabel(scene, new Set(["leg"])))).toEqual(["foot", "leg"]);
-  expect(sorted(withSameLabel(scene, new Set(["loose"])))).toEqual(["loose", "other"]);
+  expect(sorted(withSame("label", scene, new Set(["leg"])))).toEqual(["foot", "leg"]);
+  expect(sorted(withSame("label", scene, new Set(["loose"])))).toEqual(["loose", "other"]);
+  expect(withSame("body", scene, new Set(["loose"])).size).toBe(5);
 });
 
 test("inverting twice gives the selection back", () => {

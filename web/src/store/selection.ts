@@ -5,7 +5,7 @@ import { useWorkspace } from "./workspace";
 
 export type Selection = ReadonlySet<string>;
 /** What of a scene decides it. */
-export type Connected = Pick<Scene, "contacts"> & { readonly hulls: readonly { name: string; label: string | null }[] };
+export type Connected = Pick<Scene, "contacts"> & { readonly hulls: readonly { name: string; label: string | null; body: string }[] };
 
 /** The hulls that touch each hull. */
 const neighboursOf = ({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> =>
@@ -25,10 +25,10 @@ export function withConnected(scene: Connected, selection: Selection): Set<strin
   return out;
 }
 
-/** All hulls with a label that one of the selected has; without a label counts as alike, too. */
-export function withSameLabel({ hulls }: Connected, selection: Selection): Set<string> {
-  const labels = new Set(hulls.filter((hull) => selection.has(hull.name)).map((hull) => hull.label));
-  return new Set(hulls.filter((hull) => labels.has(hull.label)).map((hull) => hull.name));
+/** All hulls whose label, or body, one of the selected has, too; without a label counts as alike. */
+export function withSame(what: "label" | "body", { hulls }: Connected, selection: Selection): Set<string> {
+  const wanted = new Set(hulls.filter((hull) => selection.has(hull.name)).map((hull) => hull[what]));
+  return new Set(hulls.filter((hull) => wanted.has(hull[what])).map((hull) => hull.name));
 }
 
 /** All hulls but the selected ones. */
