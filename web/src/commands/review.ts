@@ -4,7 +4,7 @@ import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
-import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
+import { getVerdict, isWritten, nextInQueue, reviewQueue } from "../store/reviews";
 import { notify } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card, GoalResultView } from "../wire";
@@ -45,10 +45,10 @@ export const exclude = (asset: string, reason: Card["excluded"]): Promise<boolea
 export const withdrawReview = (asset: string): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: null });
 
-/** Accepts all outputs that nobody reviewed, that are up to date, without flags, sure and legal; reports how many are not. */
-export async function acceptLegal(progress: (done: number, total: number) => void): Promise<void> {
-  const { cards, confidence } = useProject.getState();
-  const open = listAcceptable(cardsInOrder(), confidence).flatMap((asset) => cards[asset] ?? []);
+/** Accepts the outputs of some assets that are legal; reports how many are not. */
+export async function acceptLegal(assets: readonly string[], progress: (done: number, total: number) => void): Promise<void> {
+  const { cards } = useProject.getState();
+  const open = assets.flatMap((asset) => cards[asset] ?? []);
   let done = 0;
   progress(0, open.length);
   const verdicts = open.map(async (card) => {

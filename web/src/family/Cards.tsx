@@ -1,12 +1,14 @@
 // The grid of cards; only those in sight are there, so that a thousand scroll as well as ten.
-import { useVirtualizer } from "@tanstack/react-virtual";
+import { useVirtualizer, type Virtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type RefObject, useEffect, useEffectEvent, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { wrapName } from "../store/commonParts";
 import { useShown } from "../store/family";
-import { useOwnNames } from "../store/project";
+import { useOwnNames, useProject } from "../store/project";
+import { groupOf } from "../store/reviews";
 import { extendSheet } from "../store/sheet";
 import { openAsset, setFilters, setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
+import { AcceptMany } from "./AcceptMany";
 import { Card, cardId } from "./Card";
 import css from "./family.module.css";
 
@@ -27,7 +29,7 @@ export function Cards({ large }: { large: boolean }) {
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
   const asset = useWorkspace((workspace) => workspace.asset);
-  const isLabelling = useWorkspace((workspace) => workspace.stage === "label");
+  const stage = useWorkspace((workspace) => workspace.stage);
   const width = useWidth(box);
   // larger where there is much room
   const least = WIDTHS[size][large ? "large" : "column"];
@@ -59,32 +61,52 @@ export function Cards({ large }: { large: boolean }) {
     );
   }
   return (
-    <div
-      ref={box}
-      className={css.cards}
-      role="listbox"
-      aria-label="Assets"
-      aria-multiselectable={isLabelling || undefined}
-      tabIndex={0}
-      aria-activedescendant={asset === null ? undefined : cardId(asset)}
-      data-first
-      data-testid="family"
-      onKeyDown={(event) => moveByKey(event, shown, columns)}
-    >
-      <div className={css.rows} style={{ height: rows.getTotalSize() }} role="presentation">
-        {rows.getVirtualItems().map(({ index, start }) => (
-          <div
-            key={index}
-            className={css.row}
-            style={{ transform: `translateY(${start}px)`, gap: GAP }}
-            role="presentation"
-          >
-            {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
-              <Card key={one} asset={one} name={wrapName(ownName(one), letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
-            ))}
-          </div>
-        ))}
+    <>
+      {large && stage === "review" && <AcceptInSight assets={listInSight(rows).flatMap((row) => shown.slice(row * columns, (row + 1) * columns))} />}
+      <div
+        ref={box}
+        className={css.cards}
+        role="listbox"
+        aria-label="Assets"
+        aria-multiselectable={stage === "label" || undefined}
+        tabIndex={0}
+        aria-activedescendant={asset === null ? undefined : cardId(asset)}
+        data-first
+        data-testid="family"
+        onKeyDown={(event) => moveByKey(event, shown, columns)}
+      >
+        <div className={css.rows} style={{ height: rows.getTotalSize() }} role="presentation">
+          {rows.getVirtualItems().map(({ index, start }) => (
+            <div
+              key={index}
+              className={css.row}
+              style={{ transform: `translateY(${start}px)`, gap: GAP }}
+              role="presentation"
+            >
+              {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
+                <Card key={one} asset={one} name={wrapName(ownName(one), letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
+              ))}
+            </div>
+          ))}
+        </div>
       </div>
+    </>
+  );
+}
+
+/** The rows that are wholly in sight. */
+function listInSight({ scrollOffset, scrollRect, getVirtualItems }: Virtualizer<HTMLDivElement, Element>): number[] {
+  const [from, height] = [scrollOffset ?? 0, scrollRect?.height ?? 0];
+  return getVirtualItems().flatMap(({ index, start, end }) => (start >= from && end - GAP <= from + height ? [index] : []));
+}
+
+/** Accepts the results that nobody reviewed and whose pictures are in sight; sorted by sureness, the next ones move up. */
+function AcceptInSight({ assets }: { assets: readonly string[] }) {
+  const cards = useProject((state) => state.cards);
+  const open = assets.filter((asset) => cards[asset] && groupOf(cards[asset]) === "open");
+  return (
+    <div className={css.inSight}>
+      <AcceptMany assets={open} what="in sight" tip="After a look at their pictures: accepts the unreviewed outputs that you see, if they are legal" />
     </div>
   );
 }

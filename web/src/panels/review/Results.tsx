@@ -1,8 +1,7 @@
 // All results in a list, those first that want a look.
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { CheckCheck } from "lucide-react";
-import { memo, useEffect, useMemo, useRef, useState } from "react";
-import { acceptLegal } from "../../commands/review";
+import { memo, useEffect, useMemo, useRef } from "react";
+import { AcceptMany } from "../../family/AcceptMany";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { countByEdit, faultsOf, findingsText } from "../../store/checks";
 import { flagsOf } from "../../store/goals";
@@ -20,7 +19,6 @@ import {
 } from "../../store/reviews";
 import { errorParts } from "../../store/words";
 import { openAsset, useWorkspace } from "../../store/workspace";
-import { Button } from "../../ui/Button";
 import { Name } from "../../ui/Name";
 import type { Card } from "../../wire";
 import { CheckAll } from "./CheckAll";
@@ -49,7 +47,7 @@ export function Results({ onOpen }: { onOpen: () => void }) {
     <div className={css.results}>
       <div className={css.family}>
         <CheckAll />
-        <AcceptLegal count={listAcceptable(inOrder, confidence).length} />
+        <AcceptMany assets={listAcceptable(inOrder, confidence)} what="legal and unflagged" tip="Accepts all unreviewed outputs that are up to date, legal, not flagged, and sure enough" />
       </div>
       <List lines={lines} onOpen={onOpen} />
     </div>
@@ -83,22 +81,6 @@ function List({ lines, onOpen }: { lines: readonly Line[]; onOpen: () => void })
         })}
       </div>
     </div>
-  );
-}
-
-function AcceptLegal({ count }: { count: number }) {
-  const [progress, setProgress] = useState<{ done: number; total: number } | null>(null);
-  if (!count && !progress) return null;
-  const run = () => void acceptLegal((done, total) => setProgress({ done, total })).finally(() => setProgress(null));
-  return (
-    <Button
-      icon={CheckCheck}
-      disabled={progress !== null}
-      tip="Accepts all unreviewed outputs that are up to date, legal, not flagged, and sure enough"
-      onClick={run}
-    >
-      {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}
-    </Button>
   );
 }
 
