@@ -131,26 +131,8 @@ class Expert:
 
     def choose(self, asset: str, hulls: frozenset[str]) -> None:
         """Select hulls of the asset that is open, in the list of hulls."""
-        person, grid = self.person, self.person.page.get_by_role("grid", name="Hulls")
-        person.drawn(asset)
-        person.reach(grid)
-        person.press("Alt+a", "Control+Home")
-        left, last = set(hulls), None
-        row = (
-            "([grid, last]) => { const id = grid.getAttribute('aria-activedescendant');"
-            " const name = document.getElementById(id)?.dataset.name; return name !== last ? name : null; }"
-        )
-        while left:  # a row is drawn after its key; the list is over where no other one comes
-            at = person.page.wait_for_function(row, arg=[grid.element_handle(), last]).json_value()
-            if at in left:
-                person.press("Space")
-                left.remove(at)
-            else:
-                last = at
-                person.press("Control+ArrowDown")
-        self.person.page.wait_for_function(
-            "count => window.meshforgeViewport.selected().length === count", arg=len(hulls)
-        )
+        self.person.drawn(asset)
+        self.person.choose(hulls)
 
     def label(self, hulls: list[tuple[str, str]]) -> None:
         """Say of some hulls what they are, one asset and label after the other."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,6 +30,12 @@ target => {
 }
 """
 """The key that leads from where the focus is towards an element."""
+_NEXT_ROW = """
+([grid, last]) => {
+  const name = document.getElementById(grid.getAttribute('aria-activedescendant'))?.dataset.name;
+  return name !== last ? name : null;
+}
+"""
 
 
 @dataclass
@@ -102,6 +108,22 @@ class Hand:
                 return
         raise AssertionError("no key leads there")
 
+    def choose(self, hulls: Collection[str]) -> None:
+        """Select hulls of what is shown in the list of hulls, by keys."""
+        grid = self.page.get_by_role("grid", name="Hulls").or_(self.page.get_by_role("treegrid", name="Hulls"))
+        self.reach(grid)
+        self.press("Alt+a", "Control+Home")
+        left, last = set(hulls), None
+        while left:  # a row is drawn after its key; the list is over where no other one comes
+            at = self.page.wait_for_function(_NEXT_ROW, arg=[grid.element_handle(), last]).json_value()
+            if at in left:
+                self.press("Space")
+                left.remove(at)
+            else:
+                last = at
+                self.press("Control+ArrowDown")
+        self.page.wait_for_function("count => window.meshforgeViewport.selected().length === count", arg=len(hulls))
+
     # Looking
 
     def button(self, name: str) -> Locator:
@@ -120,6 +142,33 @@ class Hand:
             " return wanted ? seen === wanted : Boolean(seen); }",
             arg=asset,
         )
+
+
+class KeyboardHand(Hand):
+    """A person without a pointer: buttons, choices and hulls are reached by keys."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.page.add_init_script("addEventListener('pointerdown', () => { window.clicked = true }, true)")
+
+    def click(self, target: Locator | str, **how: Any) -> None:
+        place = self.button(target) if isinstance(target, str) else target
+        place.wait_for()
+        if place.get_attribute("role") in ("radio", "tab"):  # of which Tab reaches the one that is chosen
+            group = place.locator("xpath=ancestor::*[@role='group' or @role='radiogroup' or @role='tablist'][1]")
+            self.reach(group.locator("[aria-checked=true], [aria-selected=true]"))
+            while not place.evaluate("one => one === document.activeElement"):
+                self.press("ArrowRight")
+        self.reach(place)
+        self.press("Enter")
+
+    def hull(self, name: str, *held: Any) -> None:
+        self.choose([*(self.page.evaluate("window.meshforgeViewport.selected()") if held else ()), name])
+
+    @property
+    def clicked(self) -> bool:
+        """Whether a pointer was used on the page."""
+        return bool(self.page.evaluate("window.clicked"))
 
 
 @contextmanager
@@ -154,11 +203,14 @@ def _photograph(browser: Browser) -> None:
         page.screenshot(path=f"{folder}/{number}.png")
 
 
-def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0, *, glides: bool = False) -> Hand:
-    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does."""
+def hand(
+    browser: Browser, width: int = 1440, height: int = 900, latency: int = 0, *, glides: bool = False, by: str = "mouse"
+) -> Hand:
+    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does; by: mouse, or
+    keyboard alone."""
     motion: Literal["no-preference", "reduce"] = "no-preference" if glides else "reduce"
     page = browser.new_context(viewport={"width": width, "height": height}, reduced_motion=motion).new_page()
     if latency:
         speed = {"offline": False, "latency": latency, "downloadThroughput": -1, "uploadThroughput": -1}
         page.context.new_cdp_session(page).send("Network.emulateNetworkConditions", speed)
-    return Hand(page)
+    return KeyboardHand(page) if by == "keyboard" else Hand(page)

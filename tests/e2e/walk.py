@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, Locator
 
 import meshforge.studio
 from meshforge.project import Project
@@ -111,9 +111,11 @@ def click_row(person: Hand, hull: str, **how: Any) -> None:
     person.click(person.page.locator(f'[role=row][data-name="{hull}"]'), **how)
 
 
-def guessed(person: Hand, step: int) -> None:
-    """Wait until the guess for a step is in hand."""
-    person.button(f"Keep as step {step} Enter").or_(person.button(f"Keep as step {step}")).wait_for()
+def guessed(person: Hand, step: int) -> Locator:
+    """Wait until the guess for a step is in hand; gives the button that keeps it."""
+    button = person.button(f"Keep as step {step} Enter").or_(person.button(f"Keep as step {step}"))
+    button.wait_for()
+    return button
 
 
 def demonstrate_tables(person: Hand) -> None:

@@ -29,7 +29,7 @@ function StopCard({ step }: { step: number }) {
   return (
     <>
       {target && <div className={css.ring} style={ringStyle(target)} aria-hidden />}
-      <div className={css.mark} style={cardStyle(target, mark.at)} role="dialog" data-modeless aria-label={`Tour: ${mark.title}`}>
+      <div className={css.mark} style={cardStyle(target, mark.at)} role="dialog" data-modeless data-part aria-label={`Tour: ${mark.title}`}>
         <h2>{mark.title}</h2>
         <p aria-live="polite">{text}</p>
         <footer>

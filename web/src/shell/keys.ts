@@ -11,10 +11,10 @@ const MOVES = /^(Shift\+)?Tab$|^Arrow/;
 const MAY_REPEAT = /Tab$|^Ctrl\+(Shift\+)?[ZY]$/;
 const FIELDS =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, [contenteditable=true]";
-const ROLES = ["tab", "option", "switch", "checkbox", "radio", "slider", "row", "gridcell", "listbox", "grid"];
+const ROLES = ["tab", "option", "switch", "checkbox", "radio", "slider", "row", "gridcell", "listbox", "grid", "treegrid"];
 const CONTROLS = ["button", "a", "summary", "input", ...ROLES.map((role) => `[role=${role}]`)].join(", ");
 /** The list of hulls selects by Space alone, so that Enter is for the action in hand. */
-const NO_ENTER = "[role=grid]";
+const NO_ENTER = "[role=grid], [role=treegrid]";
 /** Where Tab goes to the next asset even though a key brought one there; F6 leads on. */
 const ASSET_TABS = "[data-testid=viewport]";
 
