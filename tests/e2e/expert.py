@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -153,6 +153,19 @@ class Expert:
             guessed(self.person, step)
             if frozenset(self.person.page.evaluate("window.meshforgeViewport.selected()")) != wanted:
                 self.choose(asset, wanted)
+            self.person.press("Enter")
+            stepped(self.person, step)
+
+    def show_first(self, asset: str, keys: Sequence[Sequence[str]]) -> None:
+        """Demonstrate the rules on the first asset."""
+        self.open_asset(asset)
+        for step, (own, hulls) in enumerate(zip(keys, self.selections[asset], strict=True), 1):
+            self.choose(asset, hulls)
+            for key in own:
+                if len(key) == 1:
+                    self.person.press(key)
+                else:
+                    self.person.click(key)
             self.person.press("Enter")
             stepped(self.person, step)
 

@@ -5,7 +5,6 @@ takes few acts (a click, a drag, a key).
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from playwright.sync_api import Browser
 
@@ -14,9 +13,10 @@ from meshforge.language import Program
 from meshforge.project import GIVEN, Project
 from tests.e2e.chair_family import WORDS, write_chairs
 from tests.e2e.expert import Expert, volumes_of
-from tests.e2e.hand import Hand, hand, windows
+from tests.e2e.hand import hand, windows
 from tests.e2e.labelling import label_look_alikes
 from tests.e2e.studio import ending, started
+from tests.e2e.test_sessions import is_honest
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address, show_alike
 
@@ -76,9 +76,3 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, brow
 
 def labels_of(folder: Path, asset: str) -> dict[str, str]:
     return {hull: label.name for hull, label in Project.open(folder).labels(asset).labels.items()}
-
-
-def is_honest(person: Hand, hello: dict[str, Any]) -> None:
-    """Nothing is green while something is held."""
-    if hello["assessment"] and hello["assessment"]["need_review"]:
-        assert not person.page.locator("[data-mood=good]").count()

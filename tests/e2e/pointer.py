@@ -1,0 +1,69 @@
+"""A person with a mouse, who knows what every hull is and what is wanted of each asset."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import Any
+
+from tests.e2e.expert import Expert
+from tests.e2e.walk import go_to
+
+
+class Pointer(Expert):
+    """Selects by the mouse: a hull and its look-alikes, then what is still missing or too much."""
+
+    def open_asset(self, asset: str) -> None:
+        go_to(self.person, asset)
+
+    def choose(self, asset: str, hulls: frozenset[str]) -> None:
+        self.person.drawn(asset)
+        looks_for_alike = True
+        while left := hulls - self._selected():
+            self._take(min(left, key=lambda hull: (not self._is_seen(hull), hull)))
+            if looks_for_alike:
+                before = self._selected()
+                with self.person.page.expect_response(lambda one: one.url.endswith("/api/similar")):
+                    self.person.press("j")
+                self.person.page.wait_for_timeout(200)  # there may be none
+                more = self._selected() - before
+                looks_for_alike = len(more - hulls) <= len(more & hulls)
+        for hull in sorted(self._selected() - hulls):
+            self._take(hull)
+        assert self._selected() == hulls
+
+    def _take(self, hull: str) -> None:
+        """Click on a hull in the view, or in the list where others hide it; Ctrl is pressed for all clicks at once."""
+        if self._is_seen(hull):
+            self.person.hull(hull, *(["Control"] if self._selected() else []))
+            self.person.actions -= bool(self._selected())
+            return
+        row = self.person.page.locator(f'[role=row][data-name="{hull}"]')
+        self.person.page.get_by_role("grid", name="Hulls").hover()
+        for _ in range(60):
+            if row.count():
+                break
+            self.person.page.mouse.wheel(0, 200)
+            self.person.page.wait_for_timeout(50)
+        self.person.actions += 1  # to scroll
+        self.person.click(row, modifiers=["Control"])
+
+    def _selected(self) -> frozenset[str]:
+        return frozenset(self.person.page.evaluate("window.meshforgeViewport.selected()"))
+
+    def _is_seen(self, hull: str) -> bool:
+        return self.person.page.evaluate("name => window.meshforgeViewport.project(name)", hull) is not None
+
+    def _answer(self, question: dict[str, Any]) -> None:
+        if question["kind"] != "group" or len(question["hulls"]) == 1:
+            return super()._answer(question)
+        first = question["choices"][0]["label"]
+        by_asset = groupby(question["hulls"], key=lambda hull: hull["asset"])
+        for asset, hulls in ((asset, [hull["hull"] for hull in some]) for asset, some in by_asset):
+            others = [hull for hull in hulls if self.truth[asset][hull] != first]
+            is_all = 1 < len(others) == len(hulls)
+            for hull in others[:1] if is_all else others:
+                button = self.person.page.get_by_role("button", name=f"{hull} of {asset}: ")
+                labels = [choice["label"] for choice in question["choices"]]
+                for _ in range(labels.index(self.truth[asset][hull])):
+                    self.person.click(button, modifiers=["Shift"] if is_all else [])
+        self.person.press("1")
