@@ -60,26 +60,27 @@ class Expert:
         for _ in range(_TRIES):
             hello = self.studio.until(partial(_asks_another, last))
             watch(hello)
-            last = open_question(hello)
-            if last is None:
+            question = open_question(hello)
+            if question is None:
                 return
-            self.answered[last["kind"]] += 1
-            self._go_to_card(last)
-            self._answer(last)
+            if self._go_to_card(question):
+                last = question
+                self.answered[last["kind"]] += 1
+                self._answer(last)
         raise AssertionError("the studio asks without end")
 
-    def _go_to_card(self, question: dict[str, Any]) -> None:
-        """Press the key of the card until it is there: a busy page may lose one."""
+    def _go_to_card(self, question: dict[str, Any]) -> bool:
+        """Press the key of the card until it is there: a busy page may lose one. False where another is asked."""
         card = self.person.page.locator(f'[id="question-{question["id"]}"]')
-        if self.person.page.locator(f"{_CARDS}:focus-within").count():  # it keeps the focus from card to card
-            card.wait_for()
-            return
         for timeout in (5_000, 10_000, 60_000):
-            self.person.press("u")
+            if not self.person.page.locator(f"{_CARDS}:focus-within").count():  # it keeps the focus from card to card
+                self.person.press("u")
             with suppress(TimeoutError):
                 card.wait_for(timeout=timeout)
-                return
-        card.wait_for()
+                return True
+            if open_question(self.studio.settled()) != question:
+                return False
+        raise AssertionError(f"the page does not ask: {question['text']}")
 
     def _answer(self, question: dict[str, Any]) -> None:
         kind, asset, rule = question["kind"], question["asset"], (question["rule"] or 1) - 1

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cutMiddle, findOwnParts, wrapName } from "./commonParts";
+import { cutMiddle, findOwnParts, sentenceOf, wrapName } from "./commonParts";
 
 const own = (...names: string[]) => names.map(findOwnParts(names));
 
@@ -45,4 +45,9 @@ it("does not take long for ten thousand names", () => {
   const begun = performance.now();
   expect(findOwnParts(names)(names[42] ?? "")).toBe("42");
   expect(performance.now() - begun).toBeLessThan(1000);
+});
+
+it("sentences say short names of assets whole, and long ones without what all share", () => {
+  const names = ["set/chair_agam.obj", "set/partnet_mobility_cabinet_45162_collision.urdf", "set/partnet_mobility_cabinet_45162_collision.urdf.obj"];
+  expect(sentenceOf(`Is ${names[0]} like ${names[1]}, or ${names[2]}?`, names, (name) => `<${names.indexOf(name)}>`)).toBe("Is chair_agam.obj like <1>, or <2>?");
 });

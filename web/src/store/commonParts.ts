@@ -2,6 +2,7 @@
 import { byAsset, placeOf } from "./hullPlaces";
 import { groupBy, oncePer } from "./once";
 import type { Scene } from "./scene";
+import { shortName } from "./words";
 
 const SIGN = /[/_.\-~: ]/;
 const DIGIT = /\d/;
@@ -76,3 +77,15 @@ export function wrapName(name: string, letters: number): string {
   const end = shown.length - at <= letters ? at : letters;
   return shown.length > letters ? `${shown.slice(0, end)}\u200b${shown.slice(end)}` : shown;
 }
+
+const LONG = 24; // letters
+
+/** The name of an asset in a sentence: without folders, and a long one without what all share. */
+export function sentenceName(asset: string, own: (asset: string) => string): string {
+  const name = shortName(asset);
+  return name.length > LONG ? own(asset) : name;
+}
+
+/** A sentence of the server about some assets, with their names as in other sentences. */
+export const sentenceOf = (text: string, assets: readonly string[], own: (asset: string) => string): string =>
+  [...new Set(assets)].sort((a, b) => b.length - a.length).reduce((said, asset) => said.replaceAll(asset, () => sentenceName(asset, own)), text);

@@ -1,18 +1,19 @@
 // The next step as the page shows it: the server's sentence, with how far the job is that it names.
 import type { Job } from "../wire";
+import { ownPartsOf, sentenceOf } from "./commonParts";
 import { type ProjectState, useProject } from "./project";
 import { STAGE_OF, useWorkspace } from "./workspace";
 
-type State = Pick<ProjectState, "project" | "jobs">;
+type State = Pick<ProjectState, "project" | "jobs" | "order">;
 
 /** The job that the next step names, until it is over and another step is next; null where there is none. */
-export const jobOfNext = ({ project: { next }, jobs }: State): Job | null => jobs.findLast(({ title }) => title === next.text) ?? null;
+export const jobOfNext = ({ project: { next }, jobs }: Pick<State, "project" | "jobs">): Job | null => jobs.findLast(({ title }) => title === next.text) ?? null;
 
 /** `Decomposing 9 assets: 3 of 9`; without a job, the sentence of the step. */
 export function nextText(state: State): string {
-  const { text } = state.project.next;
+  const { text, asset } = state.project.next;
   const job = jobOfNext(state);
-  if (!job) return text;
+  if (!job) return sentenceOf(text, asset === null ? [] : [asset], ownPartsOf(state.order));
   const doing = job.doing && job.doing !== text.toLowerCase() ? `${text}, ${job.doing}` : text;
   return job.done < job.total ? `${doing}: ${job.done} of ${job.total}` : `${doing}…`;
 }

@@ -2,6 +2,8 @@
 import { putOff, reply, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { worthText } from "../../store/assessment";
+import { sentenceOf } from "../../store/commonParts";
+import { useOwnNames } from "../../store/project";
 import { toSentence } from "../../store/words";
 import type { ReviewQuestionView } from "../../wire";
 import { useCardKeys } from "./cardKeys";
@@ -17,7 +19,7 @@ export function OrientationCard({ question }: { question: ReviewQuestionView }) 
   const doing = useCardKeys({ choices: picks, later, show, ...(accept && { accept }), ...(reject && { reject }) });
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`}>
-      <h3 id={`question-${question.id}`}>{question.text}</h3>
+      <h3 id={`question-${question.id}`} title={question.text}>{sentenceOf(question.text, [asset], useOwnNames())}</h3>
       <div className={css.choices}>
         {choices.map(({ id, text, orient }, k) => (
           <button key={id} type="button" className={css.choice} data-default={!orient} aria-keyshortcuts={orient ? "Y" : "N"} onClick={doing(picks[k])}>

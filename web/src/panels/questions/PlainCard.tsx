@@ -7,7 +7,8 @@ import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
 import { failingGoals } from "../../store/goals";
 import { isUpToDate } from "../../store/reviews";
-import { useProject } from "../../store/project";
+import { sentenceOf } from "../../store/commonParts";
+import { useOwnNames, useProject } from "../../store/project";
 import { shortName, toSentence } from "../../store/words";
 import { setHighlight } from "../../store/workspace";
 import { Swatch } from "../../ui/Section";
@@ -25,11 +26,12 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
   const point = () => question.hulls.length > 0 && setHighlight({ what: question.id, assets: places });
   const [exceptions, setExceptions] = useState<Exceptions>({});
   const worth = worthText(question);
-  const [, asked = question.text, why] = /^(.*?\?) (.+)$/s.exec(question.text) ?? [];
+  const text = sentenceOf(question.text, [question.asset, ...question.hulls.map(({ asset }) => asset)], useOwnNames());
+  const [, asked = text, why] = /^(.*?\?) (.+)$/s.exec(text) ?? [];
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`} {...whilePointed(point, () => setHighlight(null))}>
       <GoalPictures question={question} />
-      <h3 id={`question-${question.id}`}>{asked}</h3>
+      <h3 id={`question-${question.id}`} title={question.text}>{asked}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
       {canBeRight(question) && <ResultPictures asset={question.asset} drawn={question.goals.length > 0} />}
       {question.kind === "result" ? <ResultReplies question={question} /> : <Replies question={question} exceptions={exceptions} />}

@@ -2,8 +2,10 @@
 import { useMemo } from "react";
 import { putOff, reply, showAsked } from "../../commands/question";
 import { worthText } from "../../store/assessment";
+import { sentenceName } from "../../store/commonParts";
+import { useOwnNames } from "../../store/project";
 import { choiceText, differing, selectOf } from "../../store/readings";
-import { listText, shortName } from "../../store/words";
+import { listText } from "../../store/words";
 import type { ReviewQuestionView } from "../../wire";
 import { HullsPicture, type RulePictureView, useRulePicture } from "../learn/RulePicture";
 import { useExtractorHighlight } from "../learn/RuleText";
@@ -25,7 +27,7 @@ export function ReadingsCard({ question }: { question: ReviewQuestionView }) {
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`}>
       <h3 id={`question-${question.id}`}>
-        On <span title={asset}>{shortName(asset)}</span>, which hulls should rule {rule} take?
+        On <span title={asset}>{sentenceName(asset, useOwnNames())}</span>, which hulls should rule {rule} take?
       </h3>
       <div className={css.choices} data-many={choices.length > 2}>
         {choices.map((choice, k) => (
