@@ -132,7 +132,7 @@ FAMILIES = {
         "labels seat, leg, rail, back, arm\n\nIs(rail) => Delete\nIs(leg)  => Each(Merge)\n",
         (("x",), ("m", "e")),
         ("chair_00.obj", "chair_01.obj"),
-        400,
+        40,
         with_labels=True,
     ),
 }

@@ -10,16 +10,7 @@ import { useProject } from "../store/project";
 import { openBeside } from "../store/sheet";
 import { notify } from "../store/toasts";
 import { startTour } from "../store/tour";
-import {
-  openAsset,
-  openStage,
-  setLayout,
-  STAGES,
-  useLayout,
-  useWorkspace,
-  type WorkspaceState,
-  STAGE_OF,
-} from "../store/workspace";
+import { openAsset, openStage, setLayout, STAGES, useLayout, useWorkspace, type WorkspaceState, STAGE_OF } from "../store/workspace";
 import { type Command, commandsOf, NAMES, needs, unless } from "./command";
 import { tryLabel } from "./label";
 

@@ -3,15 +3,7 @@ import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { dismissToast, lastProblem, notify } from "../store/toasts";
-import {
-  lookFrom,
-  setTool,
-  setView,
-  type StandardView,
-  type Tool,
-  useWorkspace,
-  type ViewSettings,
-} from "../store/workspace";
+import { lookFrom, setTool, setView, type StandardView, type Tool, useWorkspace, type ViewSettings } from "../store/workspace";
 import { type Command, commandsOf, type Condition, needs } from "./command";
 
 const isHere = needs("No asset is shown.", () => useScenes.getState().scene !== null);

@@ -77,12 +77,7 @@ export function Cards({ large }: { large: boolean }) {
       >
         <div className={css.rows} style={{ height: rows.getTotalSize() }} role="presentation">
           {rows.getVirtualItems().map(({ index, start }) => (
-            <div
-              key={index}
-              className={css.row}
-              style={{ transform: `translateY(${start}px)`, gap: GAP }}
-              role="presentation"
-            >
+            <div key={index} className={css.row} style={{ transform: `translateY(${start}px)`, gap: GAP }} role="presentation">
               {shown.slice(index * columns, (index + 1) * columns).map((one, k) => (
                 <Card key={one} asset={one} name={wrapName(ownName(one), letters)} words={words} width={card} place={index * columns + k} of={shown.length} large={large} />
               ))}

@@ -91,11 +91,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
       onKeyDown={(event) => event.target === event.currentTarget && keys.onKeyDown(event)}
     >
       <ListHead order={order} onOrder={onOrder} />
-      <div
-        role="rowgroup"
-        onClick={keys.onClick}
-        onDoubleClick={keys.onDoubleClick}
-      >
+      <div role="rowgroup" onClick={keys.onClick} onDoubleClick={keys.onDoubleClick}>
         <div style={{ height: virtual.getTotalSize(), position: "relative" }} role="presentation">
           {virtual.getVirtualItems().map(({ index, start }) => {
             const line = lines[index];

@@ -81,15 +81,7 @@ function Columns() {
       )}
       <Centre />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
-        <Divider
-          name="Width of the panel"
-          along="x"
-          edge="left"
-          flipped
-          value={panel}
-          range={WIDTHS.panel}
-          onChange={widen("panel")}
-        />
+        <Divider name="Width of the panel" along="x" edge="left" flipped value={panel} range={WIDTHS.panel} onChange={widen("panel")} />
         <StageColumn />
         <Toasts />
       </aside>

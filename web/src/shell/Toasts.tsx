@@ -46,11 +46,7 @@ function ToastLine({ toast }: { toast: Toast }) {
   }, [held, toast]);
   const Icon = toast.kind === "done" ? Check : CircleX;
   return (
-    <div
-      className={css.toast}
-      data-kind={toast.kind}
-      {...whilePointed(() => setHeld(true), () => setHeld(false))}
-    >
+    <div className={css.toast} data-kind={toast.kind} {...whilePointed(() => setHeld(true), () => setHeld(false))}>
       <Icon size={16} aria-label={toast.kind === "done" ? "Done" : "Problem"} />
       <div className={css.words}>
         <p>{toast.text}</p>

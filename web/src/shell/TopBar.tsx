@@ -41,12 +41,7 @@ export function TopBar() {
       <Problems />
       <Jobs />
       <ThemeMenu />
-      <IconButton
-        icon={CircleQuestionMark}
-        name="Keys and help"
-        keys="?"
-        onClick={() => useWorkspace.setState({ overlay: "help" })}
-      />
+      <IconButton icon={CircleQuestionMark} name="Keys and help" keys="?" onClick={() => useWorkspace.setState({ overlay: "help" })} />
     </header>
   );
 }

@@ -1,12 +1,5 @@
 // What the browser keeps between visits: theme, widths and the view's settings, taken back without trusting it.
-import {
-  initialLayout,
-  initialWorkspace,
-  type LayoutState,
-  useLayout,
-  useWorkspace,
-  type WorkspaceState,
-} from "../store/workspace";
+import { initialLayout, initialWorkspace, type LayoutState, useLayout, useWorkspace, type WorkspaceState } from "../store/workspace";
 
 type Preferences = Pick<WorkspaceState, "theme" | "unit" | "columns" | "checks"> & {
   view: Pick<WorkspaceState["view"], "colorBy" | "projection" | "ghost" | "wireframe" | "contacts" | "grid" | "opaque">;

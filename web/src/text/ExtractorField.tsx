@@ -79,13 +79,7 @@ function Answer() {
           <strong>{countText(found.select.length, "hull")}</strong> here
           {family && `; in the family ${coverageText(family, assets)}`}
         </span>
-        <Button
-          look="primary"
-          disabled={!found.select.length}
-          onClick={() => void selectFound()}
-          tip="Select these hulls"
-          keys="Enter"
-        >
+        <Button look="primary" disabled={!found.select.length} onClick={() => void selectFound()} tip="Select these hulls" keys="Enter">
           Select
         </Button>
       </div>

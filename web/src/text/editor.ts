@@ -14,16 +14,7 @@ import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { bracketMatching } from "@codemirror/language";
 import { type Diagnostic, setDiagnostics } from "@codemirror/lint";
 import { EditorState, type Extension, type Text } from "@codemirror/state";
-import {
-  Decoration,
-  type DecorationSet,
-  drawSelection,
-  EditorView,
-  keymap,
-  tooltips,
-  ViewPlugin,
-  type ViewUpdate,
-} from "@codemirror/view";
+import { Decoration, type DecorationSet, drawSelection, EditorView, keymap, tooltips, ViewPlugin, type ViewUpdate } from "@codemirror/view";
 import { type RefObject, useEffect, useRef } from "react";
 import { useProject } from "../store/project";
 import type { Mark } from "../wire";

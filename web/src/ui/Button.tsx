@@ -41,13 +41,7 @@ interface IconButtonProps extends ButtonHTMLAttributes<HTMLButtonElement> {
 export function IconButton({ icon: Icon, name, keys, on, className, ...rest }: IconButtonProps) {
   return (
     <Tip text={name} keys={keys}>
-      <button
-        type="button"
-        aria-label={name}
-        aria-pressed={on}
-        {...rest}
-        className={[css.iconButton, className].filter(Boolean).join(" ")}
-      >
+      <button type="button" aria-label={name} aria-pressed={on} {...rest} className={[css.iconButton, className].filter(Boolean).join(" ")}>
         <Icon size={16} aria-hidden />
       </button>
     </Tip>

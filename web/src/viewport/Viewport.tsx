@@ -38,14 +38,7 @@ export function Viewport() {
   useEffect(() => (root.current ? exposeProbe(stage, root.current) : undefined), [stage]);
   return (
     <StageContext.Provider value={stage}>
-      <section
-        ref={root}
-        className={css.viewport}
-        data-testid="viewport"
-        data-asset={asset}
-        aria-label="View"
-        aria-busy={loading}
-      >
+      <section ref={root} className={css.viewport} data-testid="viewport" data-asset={asset} aria-label="View" aria-busy={loading}>
         <Toolbar />
         <div className={css.stage}>
           {sheet ? <CanvasLayers sheet={sheet} /> : <NoWebGl />}

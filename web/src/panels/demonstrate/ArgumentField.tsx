@@ -32,12 +32,7 @@ export function ArgumentField({ argument, value, given, form, onChange }: Argume
   if (kind === "words" && words.length < 2 && !argument.required) return null;
   if (kind === "option" && !goesWith(name, 1, given, form)) return null;
   return (
-    <Field
-      name={title}
-      hint={wants}
-      inline={kind === "words" && !isDirections(argument)}
-      hidden={kind === "shape"}
-    >
+    <Field name={title} hint={wants} inline={kind === "words" && !isDirections(argument)} hidden={kind === "shape"}>
       {kind === "factor" && <FactorField value={value} onChange={onChange} />}
       {(kind === "length" || kind === "option") && (
         <NumberField name={title} required={argument.required} value={value} onChange={onChange} />
@@ -46,12 +41,7 @@ export function ArgumentField({ argument, value, given, form, onChange }: Argume
       {kind === "shape" && <ShapeField primitives={argument.choices} value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && isDirections(argument) && <DirectionField value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && !isDirections(argument) && (
-        <Choice
-          name={title}
-          value={String(value ?? OMITTED)}
-          options={words}
-          onChange={onChange}
-        />
+        <Choice name={title} value={String(value ?? OMITTED)} options={words} onChange={onChange} />
       )}
     </Field>
   );
@@ -133,13 +123,7 @@ function ShapeField({ primitives, value, onChange }: ShapeFieldProps) {
         {primitives.map((shape) => {
           const Icon = ICONS[shape] ?? Box;
           return (
-            <button
-              key={shape}
-              type="button"
-              className={css.shape}
-              aria-pressed={value === shape}
-              onClick={() => onChange(shape)}
-            >
+            <button key={shape} type="button" className={css.shape} aria-pressed={value === shape} onClick={() => onChange(shape)}>
               <Icon size={18} aria-hidden />
               {shape}
             </button>
@@ -167,13 +151,7 @@ export function DirectionField({ value, onChange }: { value: string; onChange: (
         <div key={axis} data-axis={axis}>
           {words.map((word) => (
             <label key={word} data-on={word === value || undefined}>
-              <input
-                type="radio"
-                className="visually-hidden"
-                name="direction"
-                checked={word === value}
-                onChange={() => onChange(word)}
-              />
+              <input type="radio" className="visually-hidden" name="direction" checked={word === value} onChange={() => onChange(word)} />
               {word.replace("-", "−")}
               {MEANING[word] && <small>{MEANING[word]}</small>}
             </label>

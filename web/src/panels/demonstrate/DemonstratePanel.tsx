@@ -80,12 +80,7 @@ function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
   if (!sources) return null;
   const what = pieces ? countText(pieces, "piece") : "geometry without hulls";
   return (
-    <Button
-      icon={Boxes}
-      disabled={busy}
-      onClick={() => openDecompose(asset)}
-      tip="Decompose geometry without hulls into convex hulls"
-    >
+    <Button icon={Boxes} disabled={busy} onClick={() => openDecompose(asset)} tip="Decompose geometry without hulls into convex hulls">
       {busy ? "Making hulls…" : `Make hulls of ${what}`}
     </Button>
   );

@@ -106,12 +106,7 @@ function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; action:
         const Icon = ACTION_ICONS[icon];
         return (
           <Tip key={name} text={summary} keys={key || undefined}>
-            <button
-              type="button"
-              className={css.action}
-              aria-pressed={action === name}
-              onClick={() => runInTurn(() => startDraft(name))}
-            >
+            <button type="button" className={css.action} aria-pressed={action === name} onClick={() => runInTurn(() => startDraft(name))}>
               <Icon size={17} aria-hidden />
               {name}
               <kbd aria-hidden>{key.replace("Shift+", "⇧")}</kbd>

@@ -31,14 +31,7 @@ export function FamilyRules() {
       {error && open.length > 0 && <Note mood="warn">No guesses: {error}</Note>}
       <ol className={css.rules}>
         {rules.map((rule, place) => (
-          <RuleRow
-            key={rule.rule}
-            rule={rule}
-            place={place}
-            view={view}
-            rules={rules.length}
-            isNext={place === open[0]}
-          />
+          <RuleRow key={rule.rule} rule={rule} place={place} view={view} rules={rules.length} isNext={place === open[0]} />
         ))}
       </ol>
       {!open.length && rules.length > 0 && (
@@ -89,10 +82,7 @@ function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
         <span className={css.code}>{(step ?? rule).action.text}</span>
         <span className={css.amount}>{amountText(step)}</span>
       </button>
-      <Menu
-        trigger={<IconButton icon={Ellipsis} name={`More for rule ${rule.rule}`} />}
-        lines={stepMenu(view, place, rules)}
-      />
+      <Menu trigger={<IconButton icon={Ellipsis} name={`More for rule ${rule.rule}`} />} lines={stepMenu(view, place, rules)} />
       {step?.error && <p className={css.error}>{step.error}</p>}
       {isOpen && !inHand && <GuessLine guess={guess} view={view} place={place} isNext={isNext} />}
     </li>

@@ -9,14 +9,7 @@ export function TemplateField({ value, onChange }: { value: string; onChange: (v
   return (
     <div className={css.templates}>
       {all.map((name) => (
-        <button
-          key={name}
-          type="button"
-          className={css.template}
-          aria-pressed={value === name}
-          onClick={() => onChange(name)}
-          title={name}
-        >
+        <button key={name} type="button" className={css.template} aria-pressed={value === name} onClick={() => onChange(name)} title={name}>
           <FileBox size={15} aria-hidden />
           <span>{name}</span>
         </button>

@@ -3,20 +3,7 @@
 import { Matrix4, OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from "three";
 import type { StandardView } from "../../store/workspace";
 import { fit, type Room, wholeRoom } from "./fit";
-import {
-  axesOf,
-  distanceOf,
-  FIELD,
-  interpolate,
-  lookFromSide,
-  orbit,
-  pan,
-  plus,
-  type Pose,
-  START,
-  type Vec,
-  zoom,
-} from "./pose";
+import { axesOf, distanceOf, FIELD, interpolate, lookFromSide, orbit, pan, plus, type Pose, START, type Vec, zoom } from "./pose";
 
 /** A line from the eye into the scene, in the canonical frame. */
 interface SightLine {
