@@ -184,6 +184,10 @@ def open_question(hello: dict[str, Any]) -> dict[str, Any] | None:
     return found
 
 
+def is_up_to_date(cards: dict[str, dict[str, Any]]) -> bool:
+    return all(card["output"] == "edited" and not card["stale"] for card in cards.values())
+
+
 def volumes_of(mesh: SymbolicMesh) -> list[float]:
     """The volumes of the hulls of a mesh [m³], in order."""
     return sorted(round(hull.volume, 6) for hull in mesh.hulls)
