@@ -17,7 +17,7 @@ from tests.studio_project import FEW, demo_project
 from tests.unit.project.tables import applied
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
-VIEWS = {"label": "Alt+1", "demonstrate": "Alt+2", "learn": "Alt+3", "review": "Alt+4", "help": "?"}
+VIEWS = {"label": "Alt+1", "demonstrate": "Alt+2", "learn": "Alt+3", "review": "Alt+4", "question": "u", "help": "?"}
 _JUDGE = """
 () => axe.run(document, {
   resultTypes: ['violations'],
@@ -58,6 +58,8 @@ PASSING: dict[str, Callable[[Hand], None]] = {
     "export": _choose("Export"),
     "commands": _press("Control+k"),
     "menu of the asset": _open_menu,
+    "history": _press("Escape", "Alt+z"),
+    "results in the centre": _press("Escape", "Alt+4", "q"),
 }
 """Ways to what is seen for a while only, one after the other."""
 
