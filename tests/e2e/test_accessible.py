@@ -56,10 +56,10 @@ PASSING: dict[str, Callable[[Hand], None]] = {
     "goals": _choose("Goals"),
     "a new goal": lambda person: person.click("New goal"),
     "export": _choose("Export"),
-    "commands": _press("Control+k"),
+    "results in the centre": _press("q"),
+    "history": _press("q", "Alt+z"),
+    "commands": _press("Escape", "Control+k"),
     "menu of the asset": _open_menu,
-    "history": _press("Escape", "Alt+z"),
-    "results in the centre": _press("Escape", "Alt+4", "q"),
 }
 """Ways to what is seen for a while only, one after the other."""
 
