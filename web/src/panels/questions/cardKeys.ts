@@ -49,12 +49,13 @@ function sayKeys({ choices = [], ...letters }: CardKeys): void {
   if (digits.length + own.length) notify(`Here ${listText([...digits, ...own])}.`);
 }
 
-/** Does what a key means on the card; Enter accepts where the card, and none of its buttons, has the focus. Digits and the
+/** Does what a key means on the card; Enter takes the first choice where the card, and none of its buttons, has the focus. Digits and the
  * letters of cards mean nothing else here, also while none is there. */
 export function pressOnCard(event: KeyboardEvent, keys: CardKeys, hold: () => void): void {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
-  const key = event.key.toUpperCase();
-  const letter = key === "ENTER" && event.target === event.currentTarget ? "accept" : LETTERS[key];
+  const isEnter = event.key === "Enter" && event.target === event.currentTarget;
+  const key = isEnter ? (keys.choices?.length ? "1" : "Y") : event.key.toUpperCase();
+  const letter = LETTERS[key];
   if (!letter && !/^[1-9]$/.test(key)) return;
   event.preventDefault();
   if (event.repeat) return; // a key that is held must not answer questions that nobody saw
