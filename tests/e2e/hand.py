@@ -165,11 +165,6 @@ class KeyboardHand(Hand):
     def hull(self, name: str, *held: Any) -> None:
         self.choose([*(self.page.evaluate("window.meshforgeViewport.selected()") if held else ()), name])
 
-    @property
-    def clicked(self) -> bool:
-        """Whether a pointer was used on the page."""
-        return bool(self.page.evaluate("window.clicked"))
-
 
 @contextmanager
 def chromium() -> Iterator[Browser]:

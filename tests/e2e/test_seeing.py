@@ -85,12 +85,17 @@ def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_
         assert (changed.max(axis=1) < 50).sum() > 100, "on a dark one"
 
 
-def test_hulls_are_selected_by_their_bodies_in_a_tree(tmp_path: Path, browser: Browser) -> None:
+def two_bodies(folder: Path) -> Project:
+    """A project of one asset, a frame and a door of two hulls each."""
     geoms = [f'<geom name="{name}" type="box" size=".1 .1 .1" pos="{k} 0 0"/>' for k, name in enumerate("abcd")]
-    asset = tmp_path / "two.xml"
+    asset = folder / "two.xml"
     bodies = f'<body name="frame">{geoms[0]}{geoms[1]}</body><body name="door">{geoms[2]}{geoms[3]}</body>'
     asset.write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
-    with visiting(tmp_path, Project.create(tmp_path / "project", [asset]), browser) as (_, person):
+    return Project.create(folder / "project", [asset])
+
+
+def test_hulls_are_selected_by_their_bodies_in_a_tree(tmp_path: Path, browser: Browser) -> None:
+    with visiting(tmp_path, two_bodies(tmp_path), browser) as (_, person):
         person.drawn("two.xml")
         tree = person.page.get_by_role("treegrid", name="Hulls")
         tree.focus()

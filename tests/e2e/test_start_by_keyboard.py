@@ -36,7 +36,6 @@ def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(
         person.type(str(tmp_path / "mine"))
         person.press("Enter")
         person.drawn("table_01.obj")
-
         shown = person.page.get_by_role("option")
         person.press("Control+k")
         person.type("leave this asset")
