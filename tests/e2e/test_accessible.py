@@ -57,24 +57,12 @@ def _ask(text: str, *keys: str) -> dict[str, Callable[[Hand], None]]:
     return {text: act}
 
 
-def _start_tour(person: Hand) -> None:
-    person.press("Escape", "Control+k")
-    person.type("guided tour")
-    person.press("Enter")
-
-
 def _meet_problem(person: Hand) -> None:
     person.page.evaluate("void Promise.reject(new Error('no hull has this name'))")
     person.page.get_by_role("alert").get_by_text("This is a bug").wait_for()
 
 
-VIEWS = {
-    "label": _press("Alt+1"),
-    "demonstrate": _press("Alt+2"),
-    "learn": _press("Alt+3"),
-    "review": _press("Alt+4"),
-    "help": _press("?"),
-}
+VIEWS = {f"stage {k}": _press(f"Alt+{k}") for k in range(1, 5)} | {"help": _press("?")}
 PASSING: dict[str, Callable[[Hand], None]] = {
     "assets side by side": _press("Alt+1", "w"),
     "hulls of several assets": _press("a"),
@@ -93,7 +81,8 @@ PASSING: dict[str, Callable[[Hand], None]] = {
     "commands": _press("Control+k"),
     "menu of the asset": _open_menu,
     "history": _press("Escape", "Alt+z"),
-    "tour": _start_tour,
+    "an earlier state": _press("ArrowDown"),
+    "tour": _press("Escape", "Control+k", *"guided tour", "Enter"),
     "problem": _meet_problem,
     "problems": lambda person: person.click(person.page.get_by_role("button", name="Problems")),
 }

@@ -76,7 +76,7 @@ function Acts({ here }: { here: number }) {
   };
   return (
     <>
-      <ul role="listbox" aria-label="States, the latest first" aria-activedescendant={`${id}-${at}`} tabIndex={0} onKeyDown={press}>
+      <ul role="listbox" aria-label="States, the latest first" aria-activedescendant={states[at] && `${id}-${at}`} tabIndex={0} onKeyDown={press}>
         {states.map(({ done, title, at: when }, place) => (
           <li
             key={done}

@@ -57,7 +57,7 @@ class ReplyToQuestion(Edit):
 
     def describe(self, project: Project) -> str:
         if self._is_put_off:
-            return "question snoozed"
+            return "question snoozed" if self.later else "question rejected"
         question, choice, asset = self._asked, self._choice, self._asked.asset
         match question.kind:
             case "candidate" | "label":
