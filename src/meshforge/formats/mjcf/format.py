@@ -13,7 +13,7 @@ from meshforge.formats.mjcf.document import MjcfDocument, read_tree
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _ROOT = re.compile(r"(?>[^<]*(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*)*)<([\w:.-]+)", re.S)
-"""An XML text up to the tag of its first element. Atomic groups: a possessive one never matches here in Python 3.11.2."""
+"""An XML text up to the tag of its first element. Atomic groups: possessive ones fail in Python 3.11.2."""
 
 _TAKEN = ("worldbody", "asset", "body", "frame", "replicate", "contact")
 _LEAVES = (
