@@ -14,7 +14,7 @@ from meshforge.project import Project
 from meshforge.samples import TABLES
 from tests.e2e.hand import hand, windows
 from tests.e2e.legs import four_legged
-from tests.e2e.studio import PATIENCE, Studio, ending, opened, started
+from tests.e2e.studio import PATIENCE, Studio, ending, ok, started
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.stools import write_bare_stool
@@ -73,24 +73,30 @@ def test_assets_without_hulls_are_decomposed_part_by_part(studio: Studio, tmp_pa
     assert step.settings["by"] == "parts"
 
 
+@pytest.mark.parametrize("on_project", [True, False], ids=["project", "start page"])
 def test_a_studio_that_was_killed_is_started_again_and_its_page_goes_on(
-    tmp_path: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
+    on_project: bool, tmp_path: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))
     project = four_legged(tmp_path)
+    words = ["studio", *([str(project.folder)] if on_project else []), "--page", str(PAGE)]
     with windows(browser):
         person = hand(browser)
-        with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio:
-            person.open(address(studio))
+        with ending(started(*words)) as studio:
+            person.page.goto(address(studio))
+            if not on_project:
+                ok(studio.post("/api/start/open", {"folder": str(project.folder)}))
+            person.drawn()
             (kept,) = (tmp_path / "state" / "addresses").iterdir()
             assert kept.stat().st_mode & 0o777 == 0o600
             person.hull("leg_a")
             studio.process.send_signal(signal.SIGKILL)
             studio.process.wait(PATIENCE)
-            person.sees(f"Start it again by meshforge studio {project.folder}: this page goes on by itself.")
+            command = f"meshforge studio {project.folder}" if on_project else "meshforge studio"
+            person.sees(f"Start it again by {command}: this page goes on by itself.")
             person.press("2")  # labels the hull, as soon as there is a server
             person.sees("1 edit of this page waits to be saved.")
-        with opened(tmp_path, project.folder, "--page", str(PAGE)) as again:
+        with ending(started(*words)) as again:
             assert (again.base, again.token) == (studio.base, studio.token)
             person.sees("1 hull of t0.obj labelled first")
             assert project.labels("t0.obj").labels["leg_a"].name == "first"

@@ -29,7 +29,7 @@ let heard: unknown[] = [];
 let stop: () => void = () => undefined;
 
 function start(): void {
-  stop = listen({ receive: (event) => heard.push(event), connected: (is) => heard.push(is) });
+  stop = listen({ receive: (event) => heard.push(event), lost: () => heard.push("lost") });
 }
 
 beforeEach(() => {
@@ -52,7 +52,7 @@ describe("the connection to the server", () => {
     start();
     last().onopen?.();
     last().onclose?.({ code: 4000 });
-    expect([FakeSocket.all.length, heard]).toEqual([2, [true]]);
+    expect([FakeSocket.all.length, heard]).toEqual([2, []]);
   });
 
   it("goes to the address of the page, encrypted where the page is", () => {
@@ -69,14 +69,14 @@ describe("the connection to the server", () => {
     last().onopen?.();
     const events = [{ kind: "project" }, { kind: "history" }] as unknown as Event[];
     for (const event of events) last().onmessage?.({ data: JSON.stringify(event) });
-    expect(heard).toEqual([true, ...events]);
+    expect(heard).toEqual(events);
   });
 
   it("is made again by itself once it is lost", () => {
     start();
     last().onopen?.();
     last().onclose?.({ code: 1006 });
-    expect(heard).toEqual([true, false]);
+    expect(heard).toEqual(["lost"]);
     vi.advanceTimersByTime(249);
     expect(FakeSocket.all).toHaveLength(1);
     vi.advanceTimersByTime(1);

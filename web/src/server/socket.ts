@@ -7,7 +7,7 @@ const CHANGED = 4000;
 
 interface Listener {
   receive(event: Event): void;
-  connected(is: boolean): void;
+  lost(): void;
 }
 
 /** Listens until the returned function is called. */
@@ -21,15 +21,12 @@ export function listen(listener: Listener): () => void {
     const here = new URL("ws", document.baseURI);
     here.protocol = here.protocol.replace("http", "ws");
     socket = new WebSocket(here, socketProtocols());
-    socket.onopen = () => {
-      wait = 250;
-      listener.connected(true);
-    };
+    socket.onopen = () => (wait = 250);
     socket.onmessage = (message: MessageEvent<string>) => listener.receive(JSON.parse(message.data) as Event);
     socket.onclose = (event: CloseEvent) => {
       if (stopped) return;
       if (event.code === CHANGED) return connect();
-      listener.connected(false);
+      listener.lost();
       timer = setTimeout(connect, wait);
       wait = Math.min(2 * wait, 4000);
     };

@@ -5,11 +5,14 @@ import { useUnsaved } from "../store/edits";
 import { countText } from "../store/words";
 import { Button } from "../ui/Button";
 import { Wordmark } from "../ui/Wordmark";
-import { startCommand, useConnection } from "./connection";
+import { type NoConnection, startCommand, useConnection } from "./connection";
 import css from "./connection.module.css";
 
-const REFUSED = "Another studio answers here now. Open the address that the terminal shows.";
-const LOST = "Connection lost; trying again.";
+const REASONS = {
+  lost: "Connection lost; trying again.",
+  refused: "Another studio answers here now. Open the address that the terminal shows.",
+  elsewhere: "The studio does not have the project of this page open.",
+};
 
 export function ConnectionBar() {
   const state = useConnection((connection) => connection.state);
@@ -31,8 +34,9 @@ export function ConnectionBar() {
 }
 
 /** Why there is no connection, and what to do. */
-function Reason({ state }: { state: "lost" | "stopped" | "refused" }) {
-  if (state !== "stopped") return <span>{state === "lost" ? LOST : REFUSED}</span>;
+function Reason({ state }: { state: NoConnection }) {
+  const why = useConnection((connection) => connection.why);
+  if (state !== "stopped") return <span>{[REASONS[state], state === "elsewhere" && why].filter(Boolean).join(" ")}</span>;
   const command = startCommand();
   return (
     <>

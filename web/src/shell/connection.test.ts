@@ -23,14 +23,15 @@ let socket: Socket;
 /** The modules as a page has them that was just loaded. */
 async function load() {
   vi.resetModules();
-  const [connection, http, project, workspace, help] = await Promise.all([
+  const [connection, http, project, workspace, edits, help] = await Promise.all([
     import("./connection"),
     import("../server/http"),
     import("../store/project"),
     import("../store/workspace"),
+    import("../store/edits"),
     import("../store/sample.test-help"),
   ]);
-  return { ...connection, ...http, ...project, ...workspace, ...help };
+  return { ...connection, ...http, ...project, ...workspace, ...edits, ...help };
 }
 
 /** Answers the question whether the server is there; nothing else is to be had of it. */
@@ -118,14 +119,38 @@ describe("without a connection", () => {
     await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("refused"));
   });
 
-  it("the page is open again as soon as the server answers", async () => {
+  it("the page is open again as soon as the server says what is open", async () => {
     const page = await load();
     page.connect();
     socket.onclose({ code: 1006 });
     socket.onopen();
-    await Promise.resolve();
-    expect(page.useConnection.getState().state).toBe("open");
-    expect(page.useProject.getState().connected).toBe(true);
+    expect(page.useProject.getState().connected).toBe(false);
+    hello(page);
+    expect([page.useConnection.getState().state, page.useProject.getState().connected]).toEqual(["open", true]);
+  });
+
+  it.each([
+    [{}, 400, "elsewhere", "/p: no project here"],
+    [{ folder: "/other" }, 200, "elsewhere", "It has another project open: leave that one, and this page goes on by itself."],
+    [{}, 200, "lost", undefined],
+  ])("a page whose edits wait says why its project is not opened again: %j, %i", async (other, status, state, why) => {
+    const page = await load();
+    page.connect();
+    hello(page, { project: { ...page.emptyProject.project, folder: "/p" } });
+    socket.onclose({ code: 1006 });
+    await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("lost"));
+    page.useUnsaved.setState({ count: 1 });
+    const asked: string[] = [];
+    vi.stubGlobal("fetch", async (path: string, { body }: RequestInit) => {
+      asked.push(`${path} ${body as string}`);
+      return new Response(JSON.stringify({ message: "no project here", where: "/p", remedy: null, conflict: false }), { status });
+    });
+    if ("folder" in other) hello(page, { project: { ...page.emptyProject.project, ...other } });
+    else socket.onmessage({ data: JSON.stringify({ kind: "start", start: {} }) });
+    await vi.advanceTimersByTimeAsync(1);
+    expect(page.useConnection.getState()).toMatchObject({ state, ...(why && { why }) });
+    expect(page.useProject.getState()).toMatchObject({ connected: false, project: { folder: "/p" } });
+    expect(asked).toEqual("folder" in other ? [] : ['api/start/open {"folder":"/p"}']);
   });
 });
 

@@ -1,9 +1,11 @@
 // Connects the stores to the server with the token of the address, knows why there is no connection, and opens what
 // this tab had open before.
 import { create } from "zustand";
+import { api } from "../server/api";
 import { getJson, setToken as keep, ServerProblem } from "../server/http";
 import { listen } from "../server/socket";
 import { receive, useProject } from "../store/project";
+import { pendingEdits, useUnsaved } from "../store/edits";
 import { followWorkspace } from "../store/scenes";
 import { hideStart, showStart } from "../store/start";
 import {
@@ -19,10 +21,12 @@ import {
 } from "../store/workspace";
 import type { Event } from "../wire";
 
-/** stopped: it did not answer for some tries; refused: the server is another one than that whose token this page has. */
-export const useConnection = create<{ state: "connecting" | "open" | "lost" | "stopped" | "refused" }>()(() => ({
-  state: "connecting",
-}));
+/** stopped: it did not answer for some tries; refused: the server is another one than that whose token this page has;
+ * elsewhere: it has another project open, or cannot open that of this page, whose edits wait. */
+export type NoConnection = "lost" | "stopped" | "refused" | "elsewhere";
+
+/** why: the reason where the server gave one. */
+export const useConnection = create<{ state: "connecting" | "open" | NoConnection; why?: string }>()(() => ({ state: "connecting" }));
 
 /** Tries without an answer after which the studio counts as stopped: some seconds. */
 const TRIES = 4;
@@ -38,7 +42,8 @@ export function startCommand(): string {
 export function connect(): void {
   let followed = false;
   function heard(event: Event): void {
-    if (isElsewhere(event)) return startAnew();
+    if (isElsewhere(event)) return void goElsewhere(event);
+    if (event.kind === "start" || event.kind === "hello") setConnected(true);
     if (event.kind === "start") return showStart(event.start);
     if (event.kind === "hello") hideStart();
     receive(event);
@@ -48,7 +53,7 @@ export function connect(): void {
     restorePlace();
     rememberPlace();
   }
-  listen({ receive: heard, connected: setConnected });
+  listen({ receive: heard, lost: () => setConnected(false) });
 }
 
 /** Whether the server has another project open than the one that this page shows, or none. */
@@ -56,6 +61,27 @@ function isElsewhere(event: Event): boolean {
   const { ready, project } = useProject.getState();
   if (!ready) return false;
   return event.kind === "start" || (event.kind === "hello" && event.project.folder !== project.folder);
+}
+
+/** A studio that was started anew opens the project of this page again, and the page goes on. Where another project was
+ * opened, or this one was left, the page shows that, once its edits are saved. */
+async function goElsewhere({ kind }: Event): Promise<void> {
+  const { connected, project } = useProject.getState();
+  if (connected) {
+    await pendingEdits();
+    return startAnew();
+  }
+  let why = "It has another project open: leave that one, and this page goes on by itself.";
+  if (kind === "start")
+    try {
+      return void (await api.openProject(project.folder));
+    } catch (error) {
+      if (!(error instanceof ServerProblem)) throw error;
+      if (error.status === 0 || error.status === 409) return; // it is gone again, or another page was faster
+      why = [error.problem.where, error.problem.message].filter(Boolean).join(": ");
+    }
+  if (useUnsaved.getState().count) useConnection.setState({ state: "elsewhere", why });
+  else startAnew();
 }
 
 /** Loads the page again, so that nothing of the project before is left. */
@@ -71,7 +97,7 @@ function setConnected(is: boolean): void {
   else void findReason().then((state) => !useProject.getState().connected && useConnection.setState({ state }));
 }
 
-async function findReason(): Promise<"lost" | "stopped" | "refused"> {
+async function findReason(): Promise<NoConnection> {
   try {
     await getJson("api/token"); // there is no such address, which only a page with the token of this server learns
     return "lost";

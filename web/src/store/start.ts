@@ -4,6 +4,7 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
+import { sendAfterEdits } from "./edits";
 import { type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
@@ -121,8 +122,8 @@ export const openProject = (folder: string): Promise<void> => attempt("open", "o
 export const forgetProject = (folder: string): Promise<void> =>
   api.forgetProject(folder).then((view) => set({ view, problem: null }));
 
-/** Leaves the open project for the start page. */
-export const leaveProject = (): Promise<unknown> => api.leaveProject();
+/** Leaves the open project for the start page, once all edits before are saved. */
+export const leaveProject = (): Promise<unknown> => sendAfterEdits(api.leaveProject);
 
 /** Does one thing at a time; what goes wrong is shown at its place. */
 async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does: () => Promise<unknown>): Promise<void> {
