@@ -2,6 +2,7 @@
 the same class. A class is a label with a made name (`part_a`: the hulls of step 1), kept beside the labels."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from meshforge import language, symbolic, synthesis
 from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions
@@ -21,13 +22,15 @@ def infer_classes(
     demos: Mapping[str, synthesis.Demonstration],
     answers: Iterable[synthesis.Answer],
     templates: Mapping[str, language.Template],
+    hidden: Mapping[str, Mapping[str, Label]] = MappingProxyType({}),
 ) -> dict[str, SymbolicMesh]:
     """Return the meshes with the classes of hulls that have no label, without any where the steps need none; one whose
     classes stay is the same object.
 
-    demos: by asset; answers: what a person said since of the hulls that rules select.
+    demos: by asset; answers: what a person said since of the hulls that rules select; hidden: inferred labels in place
+    of which the meshes have classes, as `find_hidden_labels` returns them.
     """
-    bare = {name: _remove(mesh, symbolic.CLASS_SOURCES) for name, mesh in meshes.items()}
+    bare = {name: _remove(mesh, symbolic.CLASS_SOURCES, hidden.get(name, {})) for name, mesh in meshes.items()}
     observed = find_step_labels(bare, demos, answers, templates)
     if not observed:
         return bare
@@ -64,20 +67,33 @@ def find_step_labels(
     Where a person named hulls of an asset, the others are none of these parts. Where nobody did, a hull that the same
     steps take as some with a name may be that part, and nothing is said of it.
     meshes: those of demonstrated assets at least. While no asset tells what all its hulls are, labels that were
-    inferred are no names.
+    inferred are no names, but where the same steps take a hull to which that name was given.
     """
     is_complete = any(map(_is_named, meshes.values()))
     bare = meshes if is_complete else {n: _remove(mesh, symbolic.INFERRED_SOURCES) for n, mesh in meshes.items()}
     known = _collect_rules(bare, demos, answers, templates)
     rows = [(asset, bare[asset].hull_of(hull), rules) for asset, one in known.items() for hull, rules in one.items()]
     covered = {rules for _, hull, rules in rows if not _has_no_name(hull)}
+    given = {(hull.label, rules) for _, hull, rules in rows if not _has_no_name(hull)}
     by_people = {asset for asset, hull, _ in rows if hull.source in symbolic.HUMAN_SOURCES and not _has_no_name(hull)}
     found = dict[str, dict[str, Label]]()
     for asset, hull, rules in rows:
+        if (meshes[asset].hull_of(hull.name).label, rules) in given:
+            continue
         if _has_no_name(hull) and (asset in by_people or rules not in covered):
             found.setdefault(asset, {})[hull.name] = Label(name_class(rules), 1.0, "step")
     takes = any(label.name != NO_PART for one in found.values() for label in one.values())
     return found if takes or not is_complete else {}
+
+
+def find_hidden_labels(store: Store, meshes: Mapping[str, SymbolicMesh]) -> dict[str, Mapping[str, Label]]:
+    """Return the inferred labels that steps contradict (`LabelFile.fill`), by asset and hull."""
+    found = dict[str, Mapping[str, Label]]()
+    for asset, mesh in meshes.items():
+        hulls = {hull.name: digest(hull.shape) for hull in mesh.hulls if hull.source == "step"}
+        if hulls and (labels := store.labels(asset)).labels:
+            found[asset] = symbolic.match_labels(labels, hulls).labels
+    return found
 
 
 def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mapping[str, SymbolicMesh]) -> None:
@@ -124,9 +140,12 @@ def class_names(meshes: Iterable[SymbolicMesh]) -> tuple[str, ...]:
     return tuple(sorted({h.label for mesh in meshes for h in mesh.hulls if h.label and is_class_name(h.label)}))
 
 
-def _remove(mesh: SymbolicMesh, sources: Collection[str]) -> SymbolicMesh:
+def _remove(
+    mesh: SymbolicMesh, sources: Collection[str], hidden: Mapping[str, Label] = MappingProxyType({})
+) -> SymbolicMesh:
+    """Return a mesh without the labels of some sources, with those that they hid."""
     gone = [hull.name for hull in mesh.hulls if hull.source in sources]
-    return mesh.with_labels(dict.fromkeys(gone)) if gone else mesh
+    return mesh.with_labels({name: hidden.get(name) for name in gone}) if gone else mesh
 
 
 def _is_named(mesh: SymbolicMesh) -> bool:

@@ -7,7 +7,15 @@ from dataclasses import dataclass, replace
 
 from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
-from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, quote_path, write_atomically
+from meshforge.common import (
+    MeshForgeError,
+    ProgramError,
+    ProjectError,
+    file_digest,
+    quote_path,
+    relative_name,
+    write_atomically,
+)
 from meshforge.labels import classes
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, list_wrong, soften, sort_answers
@@ -186,10 +194,27 @@ def update_classes(
     feedback = store.feedback()
     fitting, _ = sort_answers(feedback, demos)
     answers = [*list_accepted(store, demos, fitting), *list_corrected(feedback, demos), *fitting]
-    found = classes.infer_classes(meshes, demos, answers, store.templates_in(demos.values()))
+    hidden = classes.find_hidden_labels(store, meshes)
+    found = classes.infer_classes(meshes, demos, answers, store.templates_in(demos.values()), hidden)
     if keep:
         classes.keep_classes(store, meshes, found)
     return found
+
+
+def forget_learned(store: Store) -> tuple[str, ...]:
+    """Remove the program and the classes that were learned from steps of which none is left; the paths that are gone,
+    from the project's folder. A program by hand stays, with its classes; one that goes stays as the previous one."""
+    if store.demonstration_ids() or read_program_state(store).by_hand:
+        return ()
+    with store.lock():
+        layout, program = store.layout, store.layout.program
+        own = [program, layout.learned, *(layout.classes(asset) for asset in layout.classes.ids)]
+        gone = tuple(relative_name(path, store.folder) for path in own if path.exists())
+        if program.exists():
+            program.replace(layout.previous_program)
+        layout.learned.unlink(missing_ok=True)
+        store.write_classes(dict.fromkeys(layout.classes.ids))
+    return gone
 
 
 Confirm = Callable[[synthesis.Repair], bool]

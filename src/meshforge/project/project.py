@@ -94,6 +94,7 @@ class Project(Store):
     accept = Store.write_program
     program_state = learn.read_program_state
     update_classes = learn.update_classes
+    forget_learned = learn.forget_learned
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule
     read_goals = goals.read_goals

@@ -38,13 +38,19 @@ class LabelFile:
         return type(self)(tuple(new if word == old else word for word in self.vocabulary), labels, self.digests)
 
     def fill(self, classes: Self) -> Self:
-        """Return the same with the classes of hulls that it says nothing of."""
+        """Return the same with the classes of hulls that it says nothing of, or whose labels are inferred where a step
+        says otherwise."""
         if not classes.labels:
             return self
+        shown = {hull for hull, label in classes.labels.items() if label.source == "step"}
+        own = {
+            hull: one for hull, one in self.labels.items() if one.source not in INFERRED_SOURCES or hull not in shown
+        }
+        digests = {hull: one for hull, one in self.digests.items() if hull in own}
         return type(self)(
             tuple(dict.fromkeys([*self.vocabulary, *classes.vocabulary])),
-            MappingProxyType({**classes.labels, **self.labels}),
-            MappingProxyType({**classes.digests, **self.digests}),
+            MappingProxyType({**classes.labels, **own}),
+            MappingProxyType({**classes.digests, **digests}),
         )
 
 

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from meshforge.batch import IN_PROCESS
 from meshforge.batch.outcome import Edited, Failed, Skipped
 from meshforge.common import ProjectError, UsageError
+from meshforge.geometry import digest
 from meshforge.language import Delete, Each, Merge
 from meshforge.project import Project, list_renamed_files
 from meshforge.store import History, Layout, list_files
-from meshforge.symbolic import NO_PART, is_class_name, name_class
+from meshforge.symbolic import NO_PART, Label, is_class_name, name_class
 from meshforge.synthesis import Answer, Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, STEPS, THIRD, fresh, learned
 
@@ -124,9 +125,9 @@ def test_classes_go_with_the_demonstration_and_make_way_for_labels(tmp_path: Pat
     assert not project.layout.classes.ids
     taken_back = shown(tmp_path / "b")
     taken_back.demonstrate(FIRST, [])
-    taken_back.layout.program.unlink()
-    taken_back.update_classes(dict(taken_back.meshes_by_id()))
-    assert not taken_back.layout.classes.ids
+    assert "program.mf" in taken_back.forget_learned()
+    assert not taken_back.layout.classes.ids and taken_back.program() is None
+    assert not taken_back.status(workers=0).outdated
 
 
 def test_a_new_asset_gets_classes_when_the_program_is_applied(project: Project, tmp_path: Path) -> None:
@@ -162,6 +163,19 @@ def test_a_name_for_some_hulls_of_a_class_takes_no_others_from_its_step(tmp_path
     assert labels_of(project, SECOND) == dict.fromkeys(PARTS, "part_a")
     done = list(project.apply(execution=IN_PROCESS))
     assert [(one.before, one.after) for one in done if isinstance(one, Edited)] == [(6, 1)] * 3
+
+
+def test_a_guess_is_a_name_where_its_step_takes_a_hull_with_that_name_and_else_gives_way(project: Project) -> None:
+    project.delete_rule(1)
+    project.set_vocabulary(["leg", "wheel"])
+    first, *others = sorted(LEGS)
+    project.set_labels(FIRST, {first: "leg"})
+    hulls = {hull.name: digest(hull.shape) for hull in project.mesh(FIRST).hulls}
+    for guess, program in (("leg", "Is(leg) =>"), ("wheel", "Union(Is(leg), Is(part_a)) =>")):
+        labels = {**project.labels(FIRST).labels, **dict.fromkeys(others, Label(guess, 0.9, "propagated"))}
+        project.write_labels(FIRST, hulls, labels, ["leg", "wheel"])
+        assert program in str(project.synthesize().program)
+        assert labels_of(project, FIRST)[others[0]] == ("leg" if guess == "leg" else "part_a")
 
 
 @pytest.mark.parametrize(

@@ -45,9 +45,10 @@ class FileSync:
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
-        names = frozenset(names)
+        changes = changes_of(self.project, names := frozenset(names))
+        if "learning" in changes.effects and (gone := self.project.forget_learned()):
+            return self.update(names | {*gone})
         self._note_stamps(names)
-        changes = changes_of(self.project, names)
         assets, effects = changes.assets, changes.effects
         if "feedback" in effects:
             about, learns = self._take_feedback()
