@@ -3,7 +3,7 @@ import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide
 import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
 import { barText, countSigned, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
-import { openGoals } from "../store/goals";
+import { openText } from "../store/goals";
 import { useOwnNames, useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
@@ -28,7 +28,7 @@ export function SignOff() {
 
 function Known({ assessment }: { assessment: AssessmentView }) {
   const { threshold: bar, excluded } = assessment;
-  const goals = useProject(openGoals);
+  const goals = useProject(openText);
   const signed = useProject(({ cards }) => countSigned(assessment, cards));
   const mood = moodOf(assessment, goals);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;

@@ -1,7 +1,7 @@
 // Signs and words on cards, and what a screen reader says.
 import { Check, CircleAlert, CircleDashed, CircleDot, CircleQuestionMark, Flag, Hand, type LucideIcon, Pencil, RefreshCw, Tag, TriangleAlert, X } from "lucide-react";
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
-import { flagsOf } from "../store/goals";
+import { flagsOf, isVoid } from "../store/goals";
 import { countUnsure, matchesFilter, unlabelled } from "../store/family";
 import { countText } from "../store/words";
 import type { FilterName } from "../store/workspace";
@@ -41,7 +41,7 @@ export function badgesOf(card: Card, engine = "", isBare = false): readonly Badg
     output === "failed" && { name: "failed", text: "The program fails on it" },
     review === "wrong" && { name: "wrong", text: ["Wrong", card.note].filter(Boolean).join(": ") },
     flags.length > 0 && { name: "flagged", text: `Flagged: ${flags.join("; ")}` },
-    review === "accepted" && { name: "accepted", text: "Accepted" },
+    review === "accepted" && !isVoid(card) && { name: "accepted", text: "Accepted" },
     matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },

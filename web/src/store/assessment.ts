@@ -1,5 +1,6 @@
 // How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
 import type { AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
+import { isVoid } from "./goals";
 import { groupBy } from "./once";
 import type { ProjectState } from "./project";
 import { countText } from "./words";
@@ -31,9 +32,12 @@ export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "asse
   });
 }
 
-/** How many assets are signed off: sure ones on which no goal is open, and what a person accepted. */
+/** How many assets are signed off: sure ones on which no goal is open, and what a person accepted that did not change since. */
 export const countSigned = ({ assets }: AssessmentView, cards: Readonly<Record<string, Card>>): number =>
-  assets.filter(({ asset, state, reviewed }) => state === "signed" && (reviewed || !cards[asset]?.goals.some((goal) => goal.is_open))).length;
+  assets.filter(({ asset, state, reviewed }) => {
+    const card = cards[asset];
+    return state === "signed" && !(card && (isVoid(card) || (!reviewed && card.goals.some((goal) => goal.is_open))));
+  }).length;
 
 /** `Signed off 71 of 75`: of all assets, those that were not looked at counted. signed: see `countSigned`. */
 export function signedText({ signed_off, assets, unseen }: AssessmentView, signed = signed_off): string {

@@ -1,7 +1,7 @@
 // Which assets the family shows, and in which order.
 import type { Card, ConfidenceView, ProjectView } from "../wire";
 import { faultsOf, weightOf } from "./checks";
-import { flagsOf } from "./goals";
+import { flagsOf, isVoid } from "./goals";
 import { oncePer } from "./once";
 import { oncePerFamily, useProject } from "./project";
 import { type FilterName, type Filters, useWorkspace } from "./workspace";
@@ -29,7 +29,7 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: C
   unsure: (card) => card.confidence.some(isUnsure),
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",
-  accepted: (card) => card.review === "accepted",
+  accepted: (card) => card.review === "accepted" && !isVoid(card),
   wrong: (card) => card.review === "wrong",
   flagged: (card) => flagsOf(card).length > 0,
   failed: (card) => card.output === "failed" || card.error !== null,

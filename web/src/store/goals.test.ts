@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
 import type { GoalResultView } from "../wire";
+import { badgesOf } from "../family/cardText";
 import { countSigned, leftText, moodOf, signedText } from "./assessment";
-import { countGoal, freeName, goalText, openGoals } from "./goals";
+import { countGoal, freeName, goalText, openText } from "./goals";
 import { countExportable, groupOf, listAcceptable } from "./reviews";
 import { sampleAssessment, sampleCard, sampleRow } from "./sample.test-help";
 
@@ -12,10 +13,10 @@ const family = [card("a", goal("passed")), card("b", goal("failed")), card("c", 
 const cards = Object.fromEntries(family.map((one) => [one.asset, one]));
 
 test("a goal that fails or was not tried is open, and nothing is good with one", () => {
-  const open = openGoals({ cards });
+  const open = openText({ cards });
   expect(open).toBe("goals fail on 1 result, were not tried on 1");
   expect([moodOf(sampleAssessment(2, 0), open), leftText(sampleAssessment(2, 0), open)]).toEqual(["warn", `${open}.`]);
-  expect(openGoals({ cards: Object.fromEntries(Object.entries(cards).filter(([asset]) => "acef".includes(asset))) })).toBeNull();
+  expect(openText({ cards: Object.fromEntries(Object.entries(cards).filter(([asset]) => "acef".includes(asset))) })).toBeNull();
 });
 
 test("it is counted, said in words, flagged, and never signed off but by a person", () => {
@@ -28,6 +29,15 @@ test("it is counted, said in words, flagged, and never signed off but by a perso
   expect(countSigned({ ...assessment, assets: [sampleRow({ asset: "d", reviewed: true })] }, cards)).toBe(1);
   expect(countExportable(family.slice(0, 5), sure).signed).toBe(3);
   expect(listAcceptable(family, sure)).not.toContain("b");
+});
+
+test("what was accepted and changed since is open, no longer accepted, and not counted as signed off", () => {
+  const rows = [[], ["software"], ["labels", "program"]].map((stale, k) => sampleCard({ asset: `t${k}`, output: "edited", review: "accepted", stale }));
+  const cards = Object.fromEntries(rows.map((one) => [one.asset, one]));
+  const assessment = sampleAssessment(3, 0, { assets: rows.map(({ asset }) => sampleRow({ asset, reviewed: true })) });
+  expect([signedText(assessment, countSigned(assessment, cards)), moodOf(assessment, openText({ cards }))]).toEqual(["Signed off 2 of 3", "warn"]);
+  expect(openText({ cards })).toBe("1 result changed since you accepted it");
+  expect(rows.map((card) => badgesOf(card).some(({ name }) => name === "accepted"))).toEqual([true, true, false]);
 });
 
 test("a proposed name is free", () => {

@@ -14,13 +14,20 @@ export const flagsOf = (card: Card): readonly string[] => [...card.flags, ...fai
 /** Whether a goal of an asset fails or was not tried. */
 export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.is_open);
 
-/** `goals fail on 1 result, were not tried on 2`; null where all that apply hold, or are accepted. */
-export function openGoals(state: Pick<ProjectState, "cards">): string | null {
+/** Whether a person accepted the result of an asset as it was before something changed: that says nothing of it now. */
+export const isVoid = ({ review, stale }: Pick<Card, "review" | "stale">): boolean =>
+  review === "accepted" && stale.some((reason) => reason !== "software");
+
+/** What is open besides how sure results are: `2 changed since you accepted them; goals fail on 1 result, were not tried on 2`;
+ * null where nothing changed, and all goals that apply hold, or are accepted. */
+export function openText(state: Pick<ProjectState, "cards">): string | null {
   const cards = Object.values(state.cards);
   const failing = cards.filter((card) => failingGoals(card).length).length;
   const untried = cards.filter((card) => !card.excluded && card.goals.some(({ outcome }) => outcome === null)).length;
-  const parts = [failing && `fail on ${countText(failing, "result")}`, untried && `were not tried on ${untried}`].filter(Boolean);
-  return parts.length ? `goals ${parts.join(", ")}` : null;
+  const changed = cards.filter((card) => !card.excluded && isVoid(card)).length;
+  const goals = [failing && `fail on ${countText(failing, "result")}`, untried && `were not tried on ${untried}`].filter(Boolean);
+  const parts = [changed && `${countText(changed, "result")} changed since you accepted ${changed === 1 ? "it" : "them"}`, goals.length && `goals ${goals.join(", ")}`];
+  return parts.filter(Boolean).join("; ") || null;
 }
 
 /** How many assets a goal holds on, and so on, and those on which it fails. */

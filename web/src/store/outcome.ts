@@ -13,7 +13,7 @@ export interface Summary {
 /** From which belief on another reading is worth a look; the same as in the synthesis. */
 const BELIEVABLE = 0.005;
 
-/** How sure the edits are: what is known of that, whether it is being worked out, which goals are open, in words, and `countSigned`. */
+/** How sure the edits are: what is known of that, whether it is being worked out, what is open (`openText`), and `countSigned`. */
 type Sureness = { assessment: AssessmentView | null; assessing: boolean; goals?: string | null; signed?: number };
 
 /** assets: how many there are to be learned from; sure: without it nothing is known of how sure the edits are. */

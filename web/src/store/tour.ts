@@ -1,7 +1,7 @@
 // The guided tour of the demo: its marks, and how far one is; knows no DOM.
 import { create } from "zustand";
 import { countSigned, leftText, signedText } from "./assessment";
-import { openGoals } from "./goals";
+import { openText } from "./goals";
 import { type WorkspaceState, useWorkspace } from "./workspace";
 import { type ProjectState, useProject } from "./project";
 import { isUpToDate } from "./reviews";
@@ -31,7 +31,7 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
 /** Whether a first program is learned, and it is known how sure its edits are. */
 const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
 const isSignedOff = ({ assessment, cards }: ProjectState) =>
-  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0 && !openGoals({ cards });
+  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0 && !openText({ cards });
 /** Whether the person has answered what the program asked first. */
 const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
   project.answers.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.need_review === 0;
@@ -39,7 +39,7 @@ const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
 /** How the tables stand, with nothing said of what is not known. */
 function tablesText({ assessment, cards }: ProjectState): string {
   if (!assessment?.assets.length) return "MeshForge is working out how sure it is of each table.";
-  return [`${signedText(assessment, countSigned(assessment, cards))}.`, leftText(assessment, openGoals({ cards }))].filter(Boolean).join(" ");
+  return [`${signedText(assessment, countSigned(assessment, cards))}.`, leftText(assessment, openText({ cards }))].filter(Boolean).join(" ");
 }
 
 export const TOUR_STOPS: readonly TourStop[] = [

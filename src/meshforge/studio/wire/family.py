@@ -105,6 +105,12 @@ class Card(Wire):
     faults: tuple[Fault, ...] | None = None
     goals: tuple[GoalResultView, ...] = ()
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it changed since a person accepted it, or a goal is open that nobody accepted, as pages count it."""
+        changed = any(reason != "software" for reason in self.stale)
+        return changed if self.review == "accepted" else any(goal.is_open for goal in self.goals)
+
 
 class VocabularyLabel(Wire):
     """A label of the vocabulary, or a class. text: as programs write it; color: `#rrggbb`, by its place; is_class:

@@ -14,7 +14,7 @@ import {
 import { learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { countSigned } from "../../store/assessment";
-import { openGoals } from "../../store/goals";
+import { openText } from "../../store/goals";
 import { countReadable, useProject } from "../../store/project";
 import { useWorkspace } from "../../store/workspace";
 import { Doubts } from "../../family/Sureness";
@@ -76,7 +76,7 @@ function LearnState() {
   const assets = useProject((state) => countReadable(state.cards));
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
-  const goals = useProject(openGoals);
+  const goals = useProject(openText);
   const signed = useProject(({ cards }) => assessment && countSigned(assessment, cards)) ?? undefined;
   const summary = summarizeOutcome(outcome, assets, { assessment, assessing, goals, signed });
   const Icon = learning ? LoaderCircle : MOOD_ICONS[summary.mood];

@@ -4,7 +4,7 @@ import { type ReactNode, useCallback, useEffect, useMemo, useRef } from "react";
 import { lookAtHeld, showAsked } from "../../commands/question";
 import { isJudging, openQuestion } from "../../store/assessment";
 import { takeCall, useCalls } from "../../store/calls";
-import { openGoals } from "../../store/goals";
+import { openText } from "../../store/goals";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
@@ -68,7 +68,7 @@ function NoQuestion() {
 }
 
 function Over({ assessment: { need_review: open, unseen } }: { assessment: AssessmentView }) {
-  const goals = useProject(openGoals);
+  const goals = useProject(openText);
   const text = goals ? `Nothing is left to ask; ${goals}.` : "Nothing is left to ask.";
   if (!open) return <Line icon={<CircleCheck size={15} aria-hidden />} text={text} mood={unseen || goals ? "plain" : "good"} />;
   return (

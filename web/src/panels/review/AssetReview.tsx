@@ -4,7 +4,7 @@ import { useState } from "react";
 import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
 import { ServerProblem } from "../../server/http";
-import { failingGoals } from "../../store/goals";
+import { failingGoals, isVoid } from "../../store/goals";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
@@ -116,6 +116,7 @@ function VerdictSection({ asset }: { asset: string }) {
 
 function ReviewState({ card }: { card: Card }) {
   if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
+  if (isVoid(card)) return <span className={css.warn}>changed since you accepted it</span>;
   if (card.review === "accepted") return <span className={css.good}>✓ accepted</span>;
   if (card.review === "wrong") return <span className={css.warn}>✗ wrong</span>;
   if (card.output === "failed") return <span className={css.bad}>✗ failed</span>;

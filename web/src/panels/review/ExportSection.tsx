@@ -1,7 +1,7 @@
 // Which outputs are copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useMemo, useRef, useState } from "react";
-import { openGoals } from "../../store/goals";
+import { openText } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countExportable } from "../../store/reviews";
@@ -43,7 +43,7 @@ function Form() {
   const project = useProject((state) => state.project.folder);
   const cards = useProject((state) => state.cards);
   const confidence = useProject((state) => state.confidence);
-  const goals = useProject(openGoals);
+  const goals = useProject(openText);
   const counts = useMemo(() => countExportable(Object.values(cards), confidence), [cards, confidence]);
   const options = [
     { value: "signed", label: `Signed off (${counts.signed})` },

@@ -3,7 +3,7 @@ import { Play } from "lucide-react";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { SignOff } from "../../family/Sureness";
 import { useCalled, useCalls } from "../../store/calls";
-import { openGoals } from "../../store/goals";
+import { openText } from "../../store/goals";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
 import { useProject } from "../../store/project";
@@ -88,7 +88,7 @@ function NewAssets() {
 
 /** How the last run ended, and what was done to new assets before it. */
 function Outcome({ job }: { job: Job }) {
-  const goals = useProject((state) => job.state === "done" && openGoals(state) !== null);
+  const goals = useProject((state) => job.state === "done" && openText(state) !== null);
   return (
     <>
       <JobNote job={job} doubtful={goals} />
