@@ -12,6 +12,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from meshforge.symbolic import Label
+from tests.e2e.legs import four_legged
 from tests.e2e.studio import Studio, ok, opened
 from tests.loop.command import meshforge_here as meshforge
 from tests.studio_project import FEW, demo_project
@@ -253,6 +254,21 @@ def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path:
     assert meshforge("status", folder, cwd=tmp_path).out
     project.set_labels(FIRST, {"convex_00": "panel"}, source="file")
     assert project.labels(FIRST).labels["convex_00"] == Label("panel", 1.0, "file")
+
+
+def test_nothing_is_left_of_a_step_that_was_undone_and_a_redo_learns_it_again(tmp_path: Path) -> None:
+    project = four_legged(tmp_path)
+    with opened(tmp_path, project.folder) as studio:
+        before = kept(studio)
+        fields = studio.steps("t0.obj") | {"steps": [{"select": ["leg_a"], "action": {"name": "Delete"}}]}
+        studio.edit("steps", **fields)
+        assert "Is(part_a) => Delete" in studio.settled()["program"]["text"] and project.layout.classes.ids
+        ok(studio.post("/api/undo"))
+        hello = studio.until(lambda found: found["program"]["text"] == "" and not found["reach"])
+        assert kept(studio) == before
+        assert not any(label >= 0 for card in hello["cards"] for label in card["labels"])
+        ok(studio.post("/api/redo"))
+        assert "Is(part_a) => Delete" in studio.settled()["program"]["text"]
 
 
 def test_a_program_by_hand_reaches_the_family_where_nothing_was_demonstrated(tmp_path: Path) -> None:
