@@ -68,36 +68,54 @@ class Pointer(Expert):
     def _answer(self, question: dict[str, Any]) -> None:
         if question["kind"] == "result" and self.is_right(question["asset"]):
             return self._accept_in_sight()
-        if question["kind"] != "group" or len(question["hulls"]) == 1:
+        of_all = {self.truth[hull["asset"]][hull["hull"]] for hull in question["hulls"]}
+        if question["kind"] != "group" or len(of_all) == 1:
             return super()._answer(question)
-        first = question["choices"][0]["label"]
         by_asset = groupby(question["hulls"], key=lambda hull: hull["asset"])
         for asset, hulls in ((asset, [hull["hull"] for hull in some]) for asset, some in by_asset):
-            others = [hull for hull in hulls if self.truth[asset][hull] != first]
-            is_all = 1 < len(others) == len(hulls)
-            for hull in others[:1] if is_all else others:
-                button = self.person.page.get_by_role("button", name=f"{hull} of {asset}: ")
-                labels = [choice["label"] for choice in question["choices"]]
-                for _ in range(labels.index(self.truth[asset][hull])):
-                    self.person.click(button, modifiers=["Shift"] if is_all else [])
+            self._except(asset, hulls, [choice["label"] for choice in question["choices"]])
         self.person.press("1")
 
+    def _except(self, asset: str, hulls: list[str], labels: list[str]) -> None:
+        """Say of the hulls of an asset in a group what they are: of all at once what most of them are, then of each."""
+        wanted = [labels.index(self.truth[asset][hull]) for hull in hulls]
+        most = max(wanted, key=lambda label: (wanted.count(label), -label))
+        common = most if wanted.count(most) > wanted.count(0) + 1 else 0
+        for hull, own in zip(hulls, wanted, strict=True):
+            button = self.person.page.get_by_role("button", name=f"{hull} of {asset}: ")
+            if hull == hulls[0]:
+                for _ in range(common):
+                    self.person.click(button, modifiers=["Shift"])
+            for _ in range((own - common) % len(labels)):
+                self.person.click(button)
+
     def _accept_in_sight(self) -> None:
-        """Accept all results at a look, with the family in the centre; what is not right there has its card before."""
-        person = self.person
-        person.press("Alt+4")
-        person.click("Apply to all")
-        self.studio.cards(is_up_to_date)
-        person.press("q")
+        """Accept all results at a look, with the family in the centre, unless one of them is wrong: that one first."""
+        person, stage = self.person, self.person.page.get_by_role("tab", name="Review")
+        if stage.get_attribute("aria-selected") != "true":
+            person.press("Alt+4")
+        if not is_up_to_date(self.studio.cards(bool)):
+            person.click("Apply to all")
+            self.studio.cards(is_up_to_date)
+        if person.page.get_by_role("button", name="Show the family in the centre").count():
+            person.press("q")
         accept = person.page.get_by_role("button", name="in sight")
         accept.wait_for()
         while accept.count():
             seen = person.page.evaluate(_IN_SIGHT)
-            assert seen and all(map(self.is_right, seen))
+            assert seen
+            if wrong := [asset for asset in seen if not self.is_right(asset)]:
+                return self._mend(wrong[0])
             person.click(accept)
             self.studio.cards(partial(_are_accepted, seen))
             person.page.wait_for_timeout(500)  # others move up
-        person.press("q")
+
+    def _mend(self, asset: str) -> None:
+        """Say that a result is wrong, and show what is meant."""
+        self.person.press("q")
+        self.open_asset(asset)
+        self.person.press("f", "Alt+2")
+        self.show(asset)
 
 
 def _are_accepted(assets: list[str], cards: dict[str, dict[str, Any]]) -> bool:

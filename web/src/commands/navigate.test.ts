@@ -7,7 +7,7 @@ import { useLabelSources } from "../store/labelSources";
 import { nextText } from "../store/nextStep";
 import { emptyProject, useProject } from "../store/project";
 import { sampleCard } from "../store/sample.test-help";
-import { initialLayout, initialWorkspace, useLayout, useWorkspace } from "../store/workspace";
+import { initialLayout, initialWorkspace, openAsset, openStage, setBrush, useLayout, useWorkspace, visit } from "../store/workspace";
 import type { NextStep } from "../wire";
 import { commandFor } from "./list";
 import { goCommands } from "./navigate";
@@ -114,5 +114,18 @@ test("Q lets the family fill the centre and gives it back", () => {
   run("Q");
   expect(useLayout.getState().gallery).toBe(true);
   run("Q");
+  expect(useLayout.getState().gallery).toBe(false);
+});
+
+test.each([
+  ["a stage in which one selects hulls", () => openStage("demonstrate")],
+  ["a hull that a card shows", () => visit("a", { kind: "source" }, ["x"])],
+  ["painting", () => setBrush("leg")],
+])("%s gives the view back", (_, act) => {
+  openStage("review");
+  run("Q");
+  openAsset("a");
+  expect(useLayout.getState().gallery).toBe(true);
+  act();
   expect(useLayout.getState().gallery).toBe(false);
 });

@@ -311,3 +311,9 @@ export const initialLayout: LayoutState = { family: true, gallery: false, split:
 export const useLayout = create<LayoutState>()(() => initialLayout);
 
 export const setLayout = (change: Partial<LayoutState>): void => useLayout.setState(change);
+
+// what one looks at, paints or demonstrates on is in the view, which the family in the centre would hide
+useWorkspace.subscribe((now, before) => {
+  const isInView = now.asked ?? now.brush ?? (now.stage === "demonstrate" || null);
+  if (isInView && (now.asked !== before.asked || now.brush !== before.brush || now.stage !== before.stage)) setLayout({ gallery: false });
+});
