@@ -4,7 +4,7 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
-import { type PlacedFile, sendFiles } from "./upload";
+import { isSending, type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
 
@@ -79,7 +79,7 @@ export async function lookAtFolder(folder = useStart.getState().folder): Promise
 
 /** Sends files for a new project, and looks what they hold. */
 export async function uploadForProject(files: readonly PlacedFile[]): Promise<void> {
-  if (useStart.getState().busy) return;
+  if (useStart.getState().busy || isSending()) return; // what is on its way would lose the files that were sent
   chooseSource("upload");
   set({ found: null, project: "", problem: null });
   await api.clearFiles(); // what was dropped before
