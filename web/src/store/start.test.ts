@@ -5,6 +5,7 @@ import { ServerProblem } from "../server/http";
 import type { AssetsFound } from "../wire";
 import { setOptions, useDecompose } from "./decompose";
 import * as start from "./start";
+import { useToasts } from "./toasts";
 
 vi.mock("../server/api", () => ({
   api: { lookAtFolder: vi.fn(), clearFiles: vi.fn(), stageProjectFile: vi.fn(), lookAtFiles: vi.fn(), makeProject: vi.fn(), openProject: vi.fn() },
@@ -79,6 +80,18 @@ it("dropped files are sent in place of those before, and looked at", async () =>
   expect(server.stageProjectFile.mock.calls.map(([path]) => path)).toEqual(["desks/a.obj"]);
   expect([state().source, state().project]).toEqual(["upload", "/p/a"]);
   expect(start.newProject(state())).toEqual({ kind: "upload", project: "/p/a", decompose: { method: "coacd", by: "whole", most: null, threshold: null } });
+});
+
+it("files that are dropped while others are sent take none of these away", async () => {
+  server.lookAtFiles.mockResolvedValue(found);
+  const desks = [{ path: "desks/a.obj", file: new Blob() }];
+  server.stageProjectFile.mockImplementationOnce(async () => {
+    await start.uploadForProject([{ path: "chairs/b.obj", file: new Blob() }]);
+    return { names: [] };
+  });
+  await start.uploadForProject(desks);
+  expect(server.clearFiles).toHaveBeenCalledOnce();
+  expect([state().found, useToasts.getState().toasts.at(-1)?.text]).toEqual([found, "Other files are being added. Add these when they are done."]);
 });
 
 it("a bundled family is offered a place of its own", () => {

@@ -1,11 +1,11 @@
 // The start page: what the server says of it, the new project that is being put together, and what went wrong.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
 import { sendAfterEdits } from "./edits";
-import { type PlacedFile, sendFiles } from "./upload";
+import { isSending, type PlacedFile, sendFiles } from "./upload";
 
 export type Source = "folder" | "upload" | "family";
 
@@ -80,7 +80,7 @@ export async function lookAtFolder(folder = useStart.getState().folder): Promise
 
 /** Sends files for a new project, and looks what they hold. */
 export async function uploadForProject(files: readonly PlacedFile[]): Promise<void> {
-  if (useStart.getState().busy) return;
+  if (useStart.getState().busy || isSending()) return; // what is on its way would lose the files that were sent
   chooseSource("upload");
   set({ found: null, project: "", problem: null });
   await api.clearFiles(); // what was dropped before
@@ -132,8 +132,7 @@ async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does
   try {
     await does();
   } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error;
-    set({ problem: { place, problem: error.problem } });
+    set({ problem: { place, problem: problemOf(error).problem } });
   } finally {
     set({ busy: null });
   }

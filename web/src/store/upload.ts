@@ -26,13 +26,20 @@ type SendFile = (path: string, file: Blob) => Promise<unknown>;
 /** Sends files and has them taken as assets; notifies what came of it. */
 export const addAssets = (given: readonly PlacedFile[]): Promise<void> => sendFiles(given, api.stageAssetFile, takeAll);
 
+/** Whether files are on their way; then it is said that others have to wait. */
+export function isSending(): boolean {
+  const is = useUpload.getState().sending !== null;
+  if (is) notify("Other files are being added. Add these when they are done.");
+  return is;
+}
+
 /** Sends files one by one, then does what follows, unless it was stopped or none arrived; notifies what goes wrong. */
 export async function sendFiles(
   given: readonly PlacedFile[],
   send: SendFile,
   then: () => Promise<unknown>,
 ): Promise<void> {
-  if (useUpload.getState().sending) return notify("Other files are being added. Add these when they are done.");
+  if (isSending()) return;
   const files = given.filter(({ path }) => !isHidden(path));
   if (files.length === 0) return notify("There are no files to add.");
   useUpload.setState({ stopped: false });
