@@ -13,6 +13,7 @@ from playwright.sync_api import Browser
 
 from meshforge.project import Project
 from tests.e2e.hand import Hand
+from tests.e2e.legs import four_legged
 from tests.e2e.walk import visiting
 
 BOXES = {
@@ -111,3 +112,14 @@ def test_hulls_are_selected_by_their_bodies_in_a_tree(tmp_path: Path, browser: B
             assert "".join(sorted(name[-1] for name in selected)) == hulls, keys
         levels = tree.locator("[aria-level='1']").all()
         assert [row.get_attribute("aria-expanded") for row in levels] == ["false", "true"]
+
+
+def test_no_row_moves_under_the_pointer_where_a_message_comes(tmp_path: Path, browser: Browser) -> None:
+    project = four_legged(tmp_path)
+    with visiting(tmp_path, project, browser, 1024, 700) as (_, person):
+        row = person.page.locator("[role=row][data-name=leg_a]")
+        row.click()
+        before = row.bounding_box()
+        person.press("2")
+        person.sees("1 hull of t0.obj labelled first")
+        assert row.bounding_box() == before

@@ -1,6 +1,6 @@
 // How sure the edits of the family are, in one line; and of one asset, why its edit may be wrong.
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
-import { useMemo } from "react";
+import { useLayoutEffect, useMemo, useRef, useState } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
 import { barText, countSigned, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
 import { openText } from "../store/goals";
@@ -16,13 +16,24 @@ import css from "./sureness.module.css";
 export function SignOff() {
   const assessment = useProject((state) => state.assessment);
   const judging = useProject(isJudging);
-  if (assessment?.assets.length) return <Known assessment={assessment} />;
-  if (!judging) return null;
+  const box = useRef<HTMLDivElement>(null);
+  const [height, setHeight] = useState(0); // of what was there last, so that the cards below stay where they are meanwhile
+  const isKnown = Boolean(assessment?.assets.length);
+  useLayoutEffect(() => {
+    if (isKnown) setHeight(box.current?.offsetHeight ?? 0);
+  }, [isKnown, assessment]);
+  if (!isKnown && !judging) return null;
   return (
-    <p className={css.line} role="status">
-      <LoaderCircle size={14} aria-hidden className={css.spinning} />
-      <span>… sure: this is being worked out</span>
-    </p>
+    <div ref={box} style={{ minHeight: isKnown ? undefined : height }}>
+      {isKnown && assessment ? (
+        <Known assessment={assessment} />
+      ) : (
+        <p className={css.line} role="status">
+          <LoaderCircle size={14} aria-hidden className={css.spinning} />
+          <span>… sure: this is being worked out</span>
+        </p>
+      )}
+    </div>
   );
 }
 

@@ -40,7 +40,6 @@ export function StageColumn() {
         ))}
       </Tabs.List>
       <NextLine />
-      <UpCard />
       {STAGES.map((name) => (
         <Tabs.Content key={name} value={name} className={css.content} tabIndex={-1}>
           <Panel stage={name} />
@@ -58,13 +57,15 @@ function Panel({ stage }: { stage: StageName }) {
   if (stage === "learn" || stage === "review") {
     return (
       <div className={css.panel}>
+        <UpCard />
         <Own />
       </div>
     );
   }
   return (
     <div className={css.halves} ref={box}>
-      <div className={css.panel} style={{ flex: `${split} 1 0` }}>
+      <div className={css.panel} style={{ flex: `0 1 calc(${split} * (100cqh - 84px))` }}>
+        <UpCard />
         <Own />
       </div>
       <Divider
@@ -75,7 +76,7 @@ function Panel({ stage }: { stage: StageName }) {
         unit={() => 1 / (box.current?.clientHeight || 1)}
         onChange={(share) => setLayout({ split: share })}
       />
-      <div className={css.list} style={{ flex: `${1 - split} 1 0` }} data-part data-tour="hulls">
+      <div className={css.list} data-part data-tour="hulls">
         <HullList />
       </div>
     </div>
