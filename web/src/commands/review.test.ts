@@ -89,7 +89,10 @@ describe("keys of the review stage", () => {
   it("say so when nothing is left to review", () => {
     family(card("a", { review: "accepted" }));
     nextToReview();
-    expect(useToasts.getState().toasts[0]?.text).toMatch(/Nothing is left to review/);
+    expect(useToasts.getState().toasts[0]?.text).toBe("Nothing is left to review.");
+    family(card("a", { review: "accepted" }), card("b", { stale: ["program"] }));
+    nextToReview();
+    expect(useToasts.getState().toasts.at(-1)?.text).toBe("No other result is left to review; 1 output is not up to date.");
   });
 
   it("do not call a failed asset reviewed that is the only one left", () => {

@@ -4,8 +4,9 @@ import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
-import { getVerdict, isWritten, nextInQueue, reviewQueue } from "../store/reviews";
+import { getVerdict, isWritten, listOutdated, nextInQueue, reviewQueue } from "../store/reviews";
 import { notify } from "../store/toasts";
+import { countText } from "../store/words";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card, GoalResultView } from "../wire";
 import { commandsOf, inStage, needs, unless } from "./command";
@@ -76,7 +77,7 @@ export function startCorrection(asset: string): void {
 
 export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-manual-edits", asset });
 
-const queue = (): readonly string[] => reviewQueue(cardsInOrder());
+const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().confidence);
 
 function nextOf(asset: string | null): string | null {
   return nextInQueue(queue(), useProject.getState().order, asset);
@@ -88,7 +89,9 @@ export function nextToReview(): void {
   const next = nextOf(asset);
   if (next) return openAsset(next);
   const last = asset !== null && queue().includes(asset);
-  notify(last ? "No other result needs review." : "Nothing is left to review.");
+  const old = listOutdated(cardsInOrder()).length;
+  const rest = old ? `; ${countText(old, "output")} ${old === 1 ? "is" : "are"} not up to date.` : ".";
+  notify(`${last ? "No other result needs review" : old ? "No other result is left to review" : "Nothing is left to review"}${rest}`);
 }
 
 const whyNotReview = () => (reviewable() ? null : "Open an asset with a result, in Review (Alt+4).");

@@ -62,6 +62,8 @@ describe("the queue of what wants a look", () => {
 
   it("has what failed first, then what is wrong or flagged, then what nobody reviewed", () => {
     expect(reviewQueue(family)).toEqual(["c", "d", "e", "b"]);
+    const held = Object.fromEntries(["f", "g"].map((asset) => [asset, sampleRow({ asset, state: "needs review" })]));
+    expect(reviewQueue(family, held)).toEqual(["c", "d", "e", "b", "f", "g"]);
   });
 
   it("goes round", () => {

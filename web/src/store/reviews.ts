@@ -27,10 +27,12 @@ export function groupCards(cards: readonly Card[]): Readonly<Record<Group, reado
   return rows;
 }
 
-/** Assets that want a look: what failed, is wrong or flagged first, then those that nobody reviewed. */
-export function reviewQueue(cards: readonly Card[]): readonly string[] {
-  const { failed, wrong, flagged, open } = groupCards(cards);
-  return [...failed, ...wrong, ...flagged, ...open].map((card) => card.asset);
+/** Assets that want a look: what failed, is wrong or flagged first, then those that nobody reviewed, then those that need
+ * review though their results are not written as they are now. */
+export function reviewQueue(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>> = {}): readonly string[] {
+  const { failed, wrong, flagged, open, stale, none } = groupCards(cards);
+  const held = [...stale, ...none].filter(({ asset }) => confidence[asset]?.state === "needs review");
+  return [...failed, ...wrong, ...flagged, ...open, ...held].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */

@@ -39,9 +39,15 @@ export function Questions() {
         role="group"
         aria-label="What MeshForge asks"
         className={css.questions}
+        data-asks
         onKeyDown={(event) => pressOnCard(event, keys.current, hold)}
       >
         {asked ? <Card key={asked.id} question={asked} /> : <NoQuestion />}
+        {asked && (
+          <p className={css.hint}>
+            <kbd>U</kbd> to answer by keys
+          </p>
+        )}
       </div>
     </CardFocusContext>
   );
