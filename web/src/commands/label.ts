@@ -1,6 +1,7 @@
 // Commands that label: the digits, the brush, all hulls at once, and the walk through labels that nobody gave.
+import { GIVEN } from "../store/family";
 import { labelAll, saveEdits, whyNotLabel } from "../store/jobs";
-import { applyLabel, confirmLabels, placeInWalk, walk } from "../store/labelWalk";
+import { applyLabel, confirmLabels, walk } from "../store/labelWalk";
 import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { notify } from "../store/toasts";
@@ -43,8 +44,9 @@ function isDoubtful(): boolean {
   const { asset, selection } = useWorkspace.getState();
   const { scene } = useScenes.getState();
   if (asset === null || scene?.asset !== asset) return false;
-  const { cards } = useProject.getState();
-  return scene.hulls.some(({ name, look }) => selection.has(name) && look && placeInWalk(cards, asset, scene.view.hulls, name));
+  const confidence = useProject.getState().cards[asset]?.confidence ?? [];
+  const sure = new Map(scene.view.hulls.map(({ name }, position) => [name, confidence[position]]));
+  return scene.hulls.some(({ name, look }) => selection.has(name) && look && (sure.get(name) ?? GIVEN) !== GIVEN);
 }
 
 export const labelCommands = commandsOf("Label", [
