@@ -13,7 +13,7 @@ import {
 } from "../store/selection";
 import { selectSimilar } from "../store/similar";
 import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
-import { commandsOf, inStage, needs } from "./command";
+import { commandsOf, type Condition, inStage, needs } from "./command";
 
 /** The scene that the selection belongs to. */
 function here(): Scene | null {
@@ -25,8 +25,10 @@ const hasSelection = needs("Select hulls first.", () => here() !== null && useWo
 const hasAny = needs("Select hulls first.", () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0);
 const hasHulls = needs("No hulls are shown.", () => (here()?.hulls.length ?? 0) > 0);
 
+type Rule = (scene: Connected, selection: Selection) => Set<string>;
+
 /** Selects what a rule makes of the selection, as far as it is in sight. */
-function changeSelection(rule: (scene: Connected, selection: Selection) => Set<string>): void {
+function changeSelection(rule: Rule): void {
   const scene = here();
   const { selection, hidden } = useWorkspace.getState();
   if (scene) selectHere([...rule(scene, selection)].filter((name) => !hidden.has(name)));
@@ -44,14 +46,12 @@ function isolateSelection(): void {
 /** The key that switches selecting through; held during a drag, it counts for that drag alone. */
 export const THROUGH_KEY = "T";
 
+/** A command that selects what a rule makes of the selection. */
+const growCommand = (id: string, title: string, key: string, enabled: Condition, rule: Rule) =>
+  ({ id: `select-${id}`, title, keys: [key], enabled, run: () => changeSelection(rule) }) as const;
+
 export const selectCommands = commandsOf("Select", [
-  {
-    id: "select-all",
-    title: "Select all hulls",
-    keys: ["A"],
-    enabled: hasHulls,
-    run: () => changeSelection(({ hulls }) => new Set(hulls.map((hull) => hull.name))),
-  },
+  growCommand("all", "Select all hulls", "A", hasHulls, ({ hulls }) => new Set(hulls.map((hull) => hull.name))),
   {
     id: "select-none",
     title: "Select nothing",
@@ -60,41 +60,13 @@ export const selectCommands = commandsOf("Select", [
     enabled: needs("Nothing is selected.", hasAny),
     run: () => select([]),
   },
+  growCommand("invert", "Invert the selection", "I", hasHulls, invert),
+  growCommand("grow", "Grow the selection to touching hulls", "G", hasSelection, withNeighbours),
+  growCommand("connected", "Select all connected hulls", "Shift+G", hasSelection, withConnected),
+  growCommand("alike", "Select all hulls with the same label", "Shift+L", hasSelection, (scene, selection) => withSame("label", scene, selection)),
   {
-    id: "select-invert",
-    title: "Invert the selection",
-    keys: ["I"],
-    enabled: hasHulls,
-    run: () => changeSelection(invert),
-  },
-  {
-    id: "select-grow",
-    title: "Grow the selection to touching hulls",
-    keys: ["G"],
-    enabled: hasSelection,
-    run: () => changeSelection(withNeighbours),
-  },
-  {
-    id: "select-connected",
-    title: "Select all connected hulls",
-    keys: ["Shift+G"],
-    enabled: hasSelection,
-    run: () => changeSelection(withConnected),
-  },
-  {
-    id: "select-alike",
-    title: "Select all hulls with the same label",
-    keys: ["Shift+L"],
-    enabled: hasSelection,
-    run: () => changeSelection((scene, selection) => withSame("label", scene, selection)),
-  },
-  {
-    id: "select-body",
-    title: "Select all hulls of the same body",
-    keys: ["Shift+B"],
+    ...growCommand("body", "Select all hulls of the same body", "Shift+B", hasSelection, (scene, selection) => withSame("body", scene, selection)),
     words: "link part",
-    enabled: hasSelection,
-    run: () => changeSelection((scene, selection) => withSame("body", scene, selection)),
   },
   {
     id: "select-similar",

@@ -19,6 +19,9 @@ interface Place {
   readonly top: number;
 }
 
+const rowAt = ({ index, top }: Place) =>
+  ({ id: `hull-${index}`, role: "row", "aria-rowindex": index + 2, style: { transform: `translateY(${top}px)` } }) as const;
+
 interface InTree extends Place {
   /** What tells its name from the others. */
   readonly short: string;
@@ -33,20 +36,17 @@ interface BodyRowProps extends InTree {
 }
 
 /** A body, which stands for all its hulls. */
-export const BodyRow = memo(function BodyRow({ line: { key, body, names, open }, view, short, active, index, top, onTurn }: BodyRowProps) {
+export const BodyRow = memo(function BodyRow({ line: { key, body, names, open }, view, short, active, onTurn, ...place }: BodyRowProps) {
   const selected = useWorkspace(({ selection }) => names.filter((name) => selection.has(name)).length);
   return (
     <div
-      id={`hull-${index}`}
-      role="row"
-      aria-rowindex={index + 2}
+      {...rowAt(place)}
       aria-level={1}
       aria-expanded={open}
       aria-selected={selected === names.length}
       className={css.body}
       data-active={active}
       data-name={key}
-      style={{ transform: `translateY(${top}px)` }}
       {...whilePointed(() => highlightStep(view, names), clearStepHighlight)}
     >
       <span role="gridcell" className={css.name} title={body}>
@@ -75,7 +75,7 @@ interface HullRowProps extends InTree {
   readonly level: number | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, short, level, active, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, short, level, active, ...place }: HullRowProps) {
   const { hull, neighbours } = row;
   const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
@@ -83,9 +83,7 @@ export const HullRow = memo(function HullRow({ row, tone, short, level, active, 
   const hidden = useWorkspace((workspace) => workspace.hidden.has(hull.name));
   return (
     <div
-      id={`hull-${index}`}
-      role="row"
-      aria-rowindex={index + 2}
+      {...rowAt(place)}
       aria-level={level}
       aria-selected={selected}
       className={css.row}
@@ -93,7 +91,6 @@ export const HullRow = memo(function HullRow({ row, tone, short, level, active, 
       data-hidden={hidden}
       data-active={active}
       data-name={hull.name}
-      style={{ transform: `translateY(${top}px)` }}
       onPointerEnter={() => hover(hull.name)}
       onPointerLeave={() => hover(null)}
     >
@@ -125,17 +122,14 @@ function labelTitle({ hull }: Row): string {
 }
 
 /** Collision geometry that is no hull, with the reason. */
-export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & { piece: NonConvexView }) {
+export const OpaqueRow = memo(function OpaqueRow({ piece, ...place }: Place & { piece: NonConvexView }) {
   const pointed = useWorkspace((workspace) => workspace.hover === piece.name);
   return (
     <div
-      id={`hull-${index}`}
-      role="row"
-      aria-rowindex={index + 2}
+      {...rowAt(place)}
       aria-disabled
       className={css.opaque}
       data-pointed={pointed}
-      style={{ transform: `translateY(${top}px)` }}
       onPointerEnter={() => hover(piece.name)}
       onPointerLeave={() => hover(null)}
     >

@@ -1,7 +1,7 @@
 // A picture of hulls in colours that the page chooses.
 import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useProject } from "../store/project";
-import { toRgb } from "./cssColor";
+import { toRgb, watchTheme } from "./cssColor";
 import { drawOn, drawSoon } from "./drawQueue";
 import { type IdMap, type Paint, paintPixels } from "./idMap";
 import { decodePicture, findPicture, requestPicture } from "./pictureCache";
@@ -80,7 +80,7 @@ function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; 
       if (png) return void decodePicture(png).then(good, bad);
       const asked = requestPicture(url);
       drop = asked.drop;
-      asked.picture.then(good, bad);
+      asked.result.then(good, bad);
     };
     // a card that is only scrolled past asks for nothing
     const timer = setTimeout(ask, png ? 0 : 50);
@@ -93,12 +93,6 @@ function useIdMap({ url, png }: Source): { map: IdMap | null; current: boolean; 
   return { map, current: of === (png ?? url), failed };
 }
 
-function watch(changed: () => void): () => void {
-  const observer = new MutationObserver(changed);
-  observer.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
-  return () => observer.disconnect();
-}
-
 /** The look that the page has now, so that what is drawn by hand is drawn again when it changes. */
 const useTheme = (): string =>
-  useSyncExternalStore(watch, () => document.documentElement.dataset.theme ?? "light");
+  useSyncExternalStore(watchTheme, () => document.documentElement.dataset.theme ?? "light");

@@ -35,6 +35,13 @@ function measureColor(color: string): Rgb {
   return [r, g, b];
 }
 
+/** Calls back when the theme changes, until the returned function is called. */
+export function watchTheme(changed: () => void): () => void {
+  const watcher = new MutationObserver(changed);
+  watcher.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+  return () => watcher.disconnect();
+}
+
 /** Of hulls of which only the place is known: as the view has them, yet paler, since it says less. */
 export const hueOf = (position: number): string =>
   `color-mix(in srgb, ${PALETTE[position % PALETTE.length] ?? "gray"} 55%, var(--hull-pale))`;

@@ -1,6 +1,8 @@
 // The colour of each hull under the rule that the person chose; distinct ones so that neighbours differ and a hull
 // keeps its colour through edits.
+import { oncePer } from "../store/once";
 import type { Scene } from "../store/scenes";
+import { neighboursOf } from "../store/selection";
 import type { ColorBy } from "../store/workspace";
 import type { HullView, VocabularyLabel } from "../wire";
 
@@ -39,33 +41,22 @@ export const PALETTE: readonly string[] = [
   "#a9823c", "#4a91bf", "#819249", "#a475af", "#bd735a", "#219ba1", "#7d82c5", "#4c9c74", "#ba6f87",
 ];
 
-type Pairs = readonly (readonly [string, string])[];
-
 /** The place in the palette of each hull by name; hulls that were made come after those of the file. */
-export function distinctPlaces(scene: Colored): ReadonlyMap<string, number> {
-  const places = known.get(scene) ?? placesOf(scene);
-  known.set(scene, places);
-  return places;
-}
-
-type Colored = Pick<Scene, "hulls" | "view" | "contacts">;
-const known = new WeakMap<Colored, ReadonlyMap<string, number>>();
-
-function placesOf(scene: Colored): ReadonlyMap<string, number> {
+export const distinctPlaces = oncePer((scene: Pick<Scene, "hulls" | "view" | "contacts">): ReadonlyMap<string, number> => {
   const out = new Map<string, number>();
-  assignColors(scene.view.hulls.map((hull) => hull.name), scene.view.contacts, out);
+  const beside = neighboursOf(scene);
+  assignColors(scene.view.hulls.map((hull) => hull.name), neighboursOf(scene.view), out);
   const made = scene.hulls.filter((hull) => !out.has(hull.name));
   for (const { name, parent } of made) {
     const inherited = parent === null ? undefined : out.get(parent);
-    if (inherited !== undefined && !placesTaken(neighboursOf(scene.contacts, name), out).has(inherited)) out.set(name, inherited);
+    if (inherited !== undefined && !placesTaken(beside.get(name) ?? [], out).has(inherited)) out.set(name, inherited);
   }
-  assignColors(made.map((hull) => hull.name).filter((name) => !out.has(name)), scene.contacts, out);
+  assignColors(made.map((hull) => hull.name).filter((name) => !out.has(name)), beside, out);
   return out;
-}
+});
 
 /** Gives each name the next colour that no neighbour has; the least used where they have all. */
-function assignColors(names: readonly string[], contacts: Pairs, out: Map<string, number>): void {
-  const beside = byName(contacts);
+function assignColors(names: readonly string[], beside: ReturnType<typeof neighboursOf>, out: Map<string, number>): void {
   names.forEach((name, k) => {
     const used = placesTaken(beside.get(name) ?? [], out);
     const order = PALETTE.map((_, step) => (k + step) % PALETTE.length);
@@ -75,17 +66,4 @@ function assignColors(names: readonly string[], contacts: Pairs, out: Map<string
 
 function placesTaken(names: Iterable<string>, places: ReadonlyMap<string, number>): Set<number> {
   return new Set([...names].flatMap((name) => places.get(name) ?? []));
-}
-
-function neighboursOf(contacts: Pairs, name: string): string[] {
-  return contacts.flatMap(([a, b]) => (a === name ? [b] : b === name ? [a] : []));
-}
-
-function byName(contacts: Pairs): Map<string, string[]> {
-  const out = new Map<string, string[]>();
-  for (const [a, b] of contacts) {
-    out.set(a, [...(out.get(a) ?? []), b]);
-    out.set(b, [...(out.get(b) ?? []), a]);
-  }
-  return out;
 }

@@ -55,21 +55,21 @@ describe("a picture", () => {
     const { findPicture, requestPicture } = await load();
     expect(findPicture("a.png")).toBeNull();
     const [one, other] = [requestPicture("a.png"), requestPicture("a.png")];
-    expect(await one.picture).toBe(await other.picture);
+    expect(await one.result).toBe(await other.result);
     expect(fetched).toEqual(["a.png"]);
-    expect(findPicture("a.png")).toBe(await one.picture);
+    expect(findPicture("a.png")).toBe(await one.result);
   });
 
   it("that is not there is a failure, and is not kept", async () => {
     const { findPicture, requestPicture } = await load();
-    await expect(requestPicture("missing.png").picture).rejects.toThrow("404");
+    await expect(requestPicture("missing.png").result).rejects.toThrow("404");
     expect(findPicture("missing.png")).toBeNull();
   });
 
   it("that nobody wants any more is never fetched", async () => {
     autoAnswer = false;
     const { requestPicture } = await load();
-    for (const name of ["1", "2", "3"]) void requestPicture(name).picture;
+    for (const name of ["1", "2", "3"]) void requestPicture(name).result;
     const fourth = requestPicture("4");
     fourth.drop();
     await vi.waitFor(() => expect(fetched).toEqual(["1", "2", "3"]));

@@ -21,10 +21,7 @@ export function findPicture(url: string): IdMap | null {
 }
 
 /** Fetches a picture, once for all that want it; the last that was asked for comes first. */
-export function requestPicture(url: string): { picture: Promise<IdMap>; drop: () => void } {
-  const { result, drop } = line.ask(url, () => fetchPicture(url));
-  return { picture: result, drop };
-}
+export const requestPicture = (url: string) => line.ask(url, () => fetchPicture(url));
 
 async function fetchPicture(url: string): Promise<IdMap> {
   if (!useStart.getState().view) await waitForFirstScene();

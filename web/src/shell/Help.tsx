@@ -6,8 +6,8 @@ import type { Command } from "../commands/command";
 import { foldCommands, listCommands } from "../commands/list";
 import { SIGNS } from "../family/cardText";
 import { startTour } from "../store/tour";
-import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
+import { close, Overlay } from "./Overlay";
 import css from "./overlay.module.css";
 
 const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "Demonstrate", "Learn", "Review", "Edit"];
@@ -19,21 +19,11 @@ const HOW = [
   ["Review", "Apply the program to the family, accept each result or call it wrong, and export."],
 ] as const;
 
-const close = () => useWorkspace.setState({ overlay: "none" });
-
-export function Help() {
-  const open = useWorkspace((workspace) => workspace.overlay === "help");
-  return (
-    <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
-      <Dialog.Portal>
-        <Dialog.Overlay className={css.shade} />
-        <Dialog.Content className={css.help} aria-describedby={undefined}>
-          <Content />
-        </Dialog.Content>
-      </Dialog.Portal>
-    </Dialog.Root>
-  );
-}
+export const Help = () => (
+  <Overlay which="help">
+    <Content />
+  </Overlay>
+);
 
 function Content() {
   const [search, setSearch] = useState("");

@@ -2,26 +2,17 @@
 import { Dialog } from "radix-ui";
 import { type KeyboardEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { type PaletteLine, paletteLines, rankLines } from "../commands/list";
-import { useWorkspace } from "../store/workspace";
+import { close, Overlay } from "./Overlay";
 import css from "./overlay.module.css";
 
 const MOST = 200;
-const close = () => useWorkspace.setState({ overlay: "none" });
 
-export function Palette() {
-  const open = useWorkspace((workspace) => workspace.overlay === "palette");
-  return (
-    <Dialog.Root open={open} onOpenChange={(is) => !is && close()}>
-      <Dialog.Portal>
-        <Dialog.Overlay className={css.shade} />
-        <Dialog.Content className={css.palette} aria-describedby={undefined}>
-          <Dialog.Title className="visually-hidden">Find a command or an asset</Dialog.Title>
-          <List />
-        </Dialog.Content>
-      </Dialog.Portal>
-    </Dialog.Root>
-  );
-}
+export const Palette = () => (
+  <Overlay which="palette">
+    <Dialog.Title className="visually-hidden">Find a command or an asset</Dialog.Title>
+    <List />
+  </Overlay>
+);
 
 function List() {
   const id = useId();

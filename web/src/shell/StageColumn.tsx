@@ -9,18 +9,14 @@ import { UpCard } from "../panels/questions/UpCard";
 import { ReviewPanel } from "../panels/review/ReviewPanel";
 import { nextText, useIsThere } from "../store/nextStep";
 import { useProject } from "../store/project";
+import { NAMES } from "../commands/command";
 import { goToNext } from "../commands/navigate";
 import { openStage, setLayout, STAGE_OF, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
 import { HullList } from "../hulls/HullList";
 import { Divider } from "../ui/Divider";
 import css from "./Side.module.css";
 
-const TABS: Readonly<Record<StageName, { title: string; Panel: ComponentType }>> = {
-  label: { title: "Label", Panel: LabelPanel },
-  demonstrate: { title: "Demonstrate", Panel: DemonstratePanel },
-  learn: { title: "Learn", Panel: LearnPanel },
-  review: { title: "Review", Panel: ReviewPanel },
-};
+const PANELS: Readonly<Record<StageName, ComponentType>> = { label: LabelPanel, demonstrate: DemonstratePanel, learn: LearnPanel, review: ReviewPanel };
 
 export function StageColumn() {
   const stage = useWorkspace((workspace) => workspace.stage);
@@ -33,12 +29,12 @@ export function StageColumn() {
             key={name}
             value={name}
             className={css.tab}
-            title={`${TABS[name].title} (Alt+${k + 1})${name === next ? "; this is next" : ""}`}
+            title={`${NAMES[name]} (Alt+${k + 1})${name === next ? "; this is next" : ""}`}
           >
             <span className={css.number} data-next={name === next}>
               {k + 1}
             </span>
-            {TABS[name].title}
+            {NAMES[name]}
             {name === next && <span className="visually-hidden">, next</span>}
           </Tabs.Trigger>
         ))}
@@ -58,7 +54,7 @@ export function StageColumn() {
 function Panel({ stage }: { stage: StageName }) {
   const box = useRef<HTMLDivElement>(null);
   const split = useLayout((layout) => layout.split);
-  const { Panel: Own } = TABS[stage];
+  const Own = PANELS[stage];
   if (stage === "learn" || stage === "review") {
     return (
       <div className={css.panel}>

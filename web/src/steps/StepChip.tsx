@@ -5,13 +5,13 @@ import { runInTurn } from "../commands/queue";
 import { draftStep } from "../store/draft";
 import { clearStepHighlight, highlightStep } from "../store/highlight";
 import { useProject } from "../store/project";
-import { actionOf, amountText } from "../store/steps";
+import { actionOf, amountText, removeStep } from "../store/steps";
 import { select, show, useWorkspace } from "../store/workspace";
 import { IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
 import type { AssetView, StepView } from "../wire";
 import { ACTION_ICONS } from "./actionIcon";
-import { moveRule, stepMenu, removeStepHere } from "./stepMenu";
+import { moveRule, stepMenu } from "./stepMenu";
 import css from "./steps.module.css";
 
 interface StepChipProps {
@@ -109,7 +109,7 @@ function handleKey(event: KeyboardEvent, view: AssetView, place: number, count: 
 
 export function keyAction(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
   if (event.key === "Enter") return () => runInTurn(() => draftStep(place));
-  if (event.key === "Delete" || event.key === "Backspace") return () => removeStepHere(view.asset, place);
+  if (event.key === "Delete" || event.key === "Backspace") return () => void removeStep(view.asset, place);
   if (event.altKey && event.key === "ArrowLeft" && place > 0) return () => moveRule(place, place - 1);
   if (event.altKey && event.key === "ArrowRight" && place < count - 1) return () => moveRule(place, place + 1);
   return null;

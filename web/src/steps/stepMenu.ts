@@ -29,7 +29,7 @@ export function stepMenu(view: AssetView, place: number, rules: number): (MenuLi
       onSelect: () => moveRule(place, place + 1),
     },
     "line",
-    { label: "Remove it here", keys: "Del", disabled: select == null, onSelect: () => removeStepHere(asset, place) },
+    { label: "Remove it here", keys: "Del", disabled: select == null, onSelect: () => void removeStep(asset, place) },
     {
       label: "Remove the rule on all assets",
       onSelect: () => void perform({ kind: "delete-rule", rule: place + 1 }),
@@ -46,8 +46,4 @@ export async function setStepHere(asset: string, place: number, hulls: string[] 
 /** Rules have one order, in all demonstrations. */
 export function moveRule(from: number, to: number): void {
   void perform({ kind: "move-rule", rule: from + 1, to: to + 1 });
-}
-
-export function removeStepHere(asset: string, place: number): void {
-  void removeStep(asset, place);
 }

@@ -3,7 +3,7 @@ import { create } from "zustand";
 import type { CutHull } from "../wire";
 import { perform } from "./edits";
 import { type Scene, type SceneHull, useScenes } from "./scenes";
-import { type Axis, axisShown, dot, spanAlong, type Triple } from "./vectors";
+import { type Axis, axisShown, dot, plus, spanAlong, type Triple } from "./vectors";
 import { setTool, useWorkspace } from "./workspace";
 
 export type CutAxis = "x" | "y" | "z" | "free";
@@ -49,7 +49,7 @@ export function planeOf(scene: Scene, hull: SceneHull, { axis, share, drawn }: C
   const [low, high] = spanAlong([hull.shape.positions], across);
   const middle = middleOf(hull.shape.positions);
   const off = low + share * (high - low) - dot(middle, across);
-  const at = middle.map((value, k) => value + off * (across[k] ?? 0)) as Triple;
+  const at = plus(middle, across, off);
   return { hull: hull.name, at, across, span: high - low };
 }
 

@@ -2,6 +2,7 @@
 import { api } from "../server/api";
 import type { DecomposeOptions, Job, JobLine, JobRequest } from "../wire";
 import { pendingEdits, perform, sendAfterEdits } from "./edits";
+import { byAsset } from "./hullPlaces";
 import { endStroke } from "./labels";
 import { useLabelSources } from "./labelSources";
 import { labelProgress } from "./labelWalk";
@@ -78,18 +79,15 @@ export const findSpanning = (): Promise<boolean> => startJob({ kind: "rebuild" }
 
 /** Rebuilds bodies in which hulls were found to span parts; every: whether they are all that were found. */
 export function rebuildBodies(found: readonly JobLine[], every: boolean): Promise<boolean> {
-  return startJob({ kind: "rebuild", bodies: byAsset(found, ({ body }) => (body === null ? [] : [body])), every });
+  return startJob({ kind: "rebuild", bodies: byLine(found, ({ body }) => (body === null ? [] : [body])), every });
 }
 
 /** Says of hulls that were found that they span no parts, so that they are not found again. */
 export const dismissSpanning = (found: readonly JobLine[]): Promise<boolean> =>
-  perform({ kind: "dismiss-spanning", hulls: byAsset(found, ({ hulls }) => hulls) });
+  perform({ kind: "dismiss-spanning", hulls: byLine(found, ({ hulls }) => hulls) });
 
-function byAsset(lines: readonly JobLine[], namesOf: (line: JobLine) => readonly string[]): Record<string, string[]> {
-  const out: Record<string, string[]> = {};
-  for (const line of lines) (out[line.asset] ??= []).push(...namesOf(line));
-  return out;
-}
+const byLine = (lines: readonly JobLine[], namesOf: (line: JobLine) => readonly string[]): Record<string, string[]> =>
+  Object.fromEntries(byAsset(lines.flatMap((line) => namesOf(line).map((hull) => ({ asset: line.asset, hull })))));
 
 export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, signed_only });

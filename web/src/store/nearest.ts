@@ -1,5 +1,5 @@
 // How far two convex shapes are apart, and where: the distance algorithm of Gilbert, Johnson and Keerthi (1988).
-import { cross, dot, minus, negative, type Triple } from "./vectors";
+import { cross, dot, minus, negative, ORIGIN, type Triple, type Vec } from "./vectors";
 
 /** Of two shapes: the points that are nearest to each other, and how far these are apart [m]; 0 where they touch. */
 interface Nearest {
@@ -11,8 +11,8 @@ interface Nearest {
 /** A corner of the difference of both shapes, with the corners that it is the difference of. */
 interface Corner {
   readonly at: Triple;
-  readonly a: Triple;
-  readonly b: Triple;
+  readonly a: Vec;
+  readonly b: Vec;
 }
 
 /** A point of a simplex as a weighted mean of its corners. */
@@ -49,9 +49,9 @@ export function nearestPoints(positionsA: Float32Array, positionsB: Float32Array
 const pointsOf = (positions: Float32Array): Triple[] =>
   Array.from({ length: positions.length / 3 }, (_, k) => [...positions.subarray(3 * k, 3 * k + 3)] as Triple);
 
-const differenceOf = (a: Triple, b: Triple): Corner => ({ at: minus(a, b), a, b });
+const differenceOf = (a: Vec, b: Vec): Corner => ({ at: minus(a, b), a, b });
 
-function farthest(points: readonly Triple[], way: Triple): Triple {
+function farthest(points: readonly Triple[], way: Triple): Vec {
   let [best, most] = [points[0] ?? ORIGIN, -Infinity];
   for (const point of points) {
     const along = dot(point, way);
@@ -112,7 +112,7 @@ function meanOf(corners: readonly Corner[], weights: readonly number[]): Mean {
   return { at: weighted(corners.map((corner) => corner.at), weights), corners, weights };
 }
 
-function weighted(points: readonly Triple[], weights: readonly number[]): Triple {
+function weighted(points: readonly Vec[], weights: readonly number[]): Triple {
   const along = (axis: number) => points.reduce((sum, point, k) => sum + (weights[k] ?? 0) * (point[axis] ?? 0), 0);
   return [along(0), along(1), along(2)];
 }
@@ -121,5 +121,3 @@ const witnesses = ({ corners, weights }: Mean): { a: Triple; b: Triple } => ({
   a: weighted(corners.map((corner) => corner.a), weights),
   b: weighted(corners.map((corner) => corner.b), weights),
 });
-
-const ORIGIN: Triple = [0, 0, 0];

@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { axisInFile } from "./cut";
 import type { Scene } from "./scenes";
 import { lengthNumbers, type LengthUnit } from "./units";
-import { dot, minus, spanAlong, type Triple } from "./vectors";
+import { dot, minus, plus, spanAlong, type Triple } from "./vectors";
 
 /** A point on a hull; at: in the frame of the file, where the hull is without the exploded view. */
 export interface RulerPoint {
@@ -95,8 +95,7 @@ export function measureExtents(scene: Scene, names: ReadonlySet<string>): Omit<M
   const along = spans.map(([low, high]) => high - low) as Triple;
   const on = hulls.length === 1 ? first.name : "";
   const lines = axes.map((axis, a): RulerLine => {
-    const end = corner.map((value, k) => value + (along[a] ?? 0) * (axis[k] ?? 0)) as Triple;
-    return { ends: [corner, end], hulls: [on, on] };
+    return { ends: [corner, plus(corner, axis, along[a])], hulls: [on, on] };
   });
   const what = hulls.length === 1 ? `Extents of ${first.name}` : `Extents of ${hulls.length} hulls`;
   return { asset: scene.asset, what, lines, length: null, along };

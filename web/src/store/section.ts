@@ -1,7 +1,7 @@
 // The section plane: what lies before it is out of sight, so that one sees inside. It changes nothing of the asset; the
 // plane that cuts a hull in two is in `cut.ts`.
 import { create } from "zustand";
-import type { Axis, Triple } from "./vectors";
+import { type Axis, negative, type Triple } from "./vectors";
 
 export type SectionAxis = Axis | "view";
 
@@ -49,7 +49,7 @@ export function sectionPlane(box: readonly number[], { on, across, share, flippe
   if (!on) return null;
   const [low, high] = spanOfBox(box, across);
   const at = low + share * (high - low);
-  return flipped ? { normal: across.map((value) => -value) as Triple, at: -at } : { normal: across, at };
+  return flipped ? { normal: negative(across), at: -at } : { normal: across, at };
 }
 
 /** From where to where a box reaches in a direction. */

@@ -8,7 +8,7 @@ export type Selection = ReadonlySet<string>;
 export type Connected = Pick<Scene, "contacts"> & { readonly hulls: readonly { name: string; label: string | null; body: string }[] };
 
 /** The hulls that touch each hull. */
-const neighboursOf = ({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> =>
+export const neighboursOf = ({ contacts }: Pick<Scene, "contacts">): ReadonlyMap<string, readonly string[]> =>
   groupBy([...contacts, ...contacts.map(([a, b]) => [b, a] as const)], ([a]) => a, ([, b]) => b);
 
 /** The selection with all that touches it. */

@@ -3,11 +3,11 @@
 import type { Shape } from "../server/packet";
 import { sheetName } from "./hullPlaces";
 import type { Scene, ScenePart } from "./scene";
+import { ORIGIN, plus, type Vec } from "./vectors";
 
-type Triple = readonly [number, number, number];
 interface Box {
-  readonly low: Triple;
-  readonly high: Triple;
+  readonly low: Vec;
+  readonly high: Vec;
 }
 
 /** Room between assets, in widths; rows are so far apart that the one in front hides nothing of the next, nor its name. */
@@ -32,7 +32,7 @@ export function sheetOf(scenes: readonly Scene[], open: string, oneSize = false)
   const isUneven = Math.max(...sizes) > UNEQUAL * Math.min(...sizes);
   const scales = sizes.map((size) => (oneSize && isUneven ? (sizes[0] ?? 1) / size : 1));
   const at = placesFor(boxes.map((box, k) => scaleBox(box, scales[k] ?? 1)));
-  const placed = new Map(scenes.map((scene, k) => [scene.asset, place(scene, boxes[k] as Box, scales[k] ?? 1, at[k] as Triple)]));
+  const placed = new Map(scenes.map((scene, k) => [scene.asset, place(scene, boxes[k] as Box, scales[k] ?? 1, at[k] as Vec)]));
   const order = [first, ...scenes.filter((scene) => scene !== first)].flatMap(({ asset }) => placed.get(asset) ?? []);
   const hulls = order.flatMap((one) => one.hulls);
   const contacts = order.flatMap((one) => one.contacts);
@@ -42,7 +42,7 @@ export function sheetOf(scenes: readonly Scene[], open: string, oneSize = false)
 }
 
 /** Where each box goes: rows from the back to the front, each from the left to the right as one looks at them. */
-function placesFor(boxes: readonly Box[]): Triple[] {
+function placesFor(boxes: readonly Box[]): Vec[] {
   const size = (axis: 0 | 1 | 2) => Math.max(...boxes.map(({ low, high }) => high[axis] - low[axis]), 1e-9);
   const [sine, cosine] = [Math.sin(SHEET_AZIMUTH), Math.cos(SHEET_AZIMUTH)];
   const seen = (along: number, across: number) => Math.abs(along) * size(0) + Math.abs(across) * size(1);
@@ -55,8 +55,7 @@ function placesFor(boxes: readonly Box[]): Triple[] {
   });
 }
 
-const scaleBox = ({ low, high }: Box, by: number): Box => ({ low: scaled(low, by), high: scaled(high, by) });
-const scaled = (at: Triple, by: number): Triple => [by * at[0], by * at[1], by * at[2]];
+const scaleBox = ({ low, high }: Box, by: number): Box => ({ low: plus(ORIGIN, low, by), high: plus(ORIGIN, high, by) });
 
 /** The box around an asset that stands upright. */
 function standingBox(scene: Scene): Box {
@@ -74,11 +73,11 @@ function standingBox(scene: Scene): Box {
 }
 
 /** An asset where it stands: the middle of its box there, its foot on the ground. */
-function place(scene: Scene, { low, high }: Box, scale: number, at: Triple) {
+function place(scene: Scene, { low, high }: Box, scale: number, at: Vec) {
   const { asset, view } = scene;
   const mid = (axis: 0 | 1) => (low[axis] + high[axis]) / 2;
-  const by: Triple = [at[0] - scale * mid(0), at[1] - scale * mid(1), at[2] - scale * low[2]];
-  const there = (corner: Triple): Triple => [scale * corner[0] + by[0], scale * corner[1] + by[1], scale * corner[2] + by[2]];
+  const by: Vec = [at[0] - scale * mid(0), at[1] - scale * mid(1), at[2] - scale * low[2]];
+  const there = (corner: Vec) => plus(by, corner, scale);
   return {
     hulls: scene.hulls.map((hull) => ({ ...hull, name: sheetName(asset, hull.name), shape: moved(hull.shape, view.upright, scale, by) })),
     contacts: scene.contacts.map(([a, b]) => [sheetName(asset, a), sheetName(asset, b)] as const),
@@ -89,7 +88,7 @@ function place(scene: Scene, { low, high }: Box, scale: number, at: Triple) {
 const known = new WeakMap<Shape, { key: string; shape: Shape }>();
 
 /** A shape that is turned, scaled and moved; the same object for the same move, so that it is not drawn anew. */
-function moved(shape: Shape, turn: readonly number[] | null, scale: number, by: Triple): Shape {
+function moved(shape: Shape, turn: readonly number[] | null, scale: number, by: Vec): Shape {
   const key = [turn, scale, by].join();
   const before = known.get(shape);
   if (before?.key === key) return before.shape;
@@ -99,7 +98,7 @@ function moved(shape: Shape, turn: readonly number[] | null, scale: number, by: 
 }
 
 /** turn: 16 numbers, row by row, null for none. */
-function transform(positions: Float32Array, turn: readonly number[] | null, scale: number, by: Triple): Float32Array {
+function transform(positions: Float32Array, turn: readonly number[] | null, scale: number, by: Vec): Float32Array {
   const out = new Float32Array(positions.length);
   for (let k = 0; k < positions.length; k += 3) {
     const [x, y, z] = [positions[k] ?? 0, positions[k + 1] ?? 0, positions[k + 2] ?? 0];

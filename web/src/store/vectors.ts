@@ -1,10 +1,14 @@
 // Points and directions in space, without three.js.
 export type Triple = [number, number, number];
+export type Vec = Readonly<Triple>;
 
-export const minus = (a: Triple, b: Triple): Triple => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-export const negative = (a: Triple): Triple => [-a[0], -a[1], -a[2]];
-export const dot = (a: Triple, b: Triple): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const cross = (a: Triple, b: Triple): Triple => [
+export const ORIGIN: Vec = [0, 0, 0];
+
+export const plus = (a: Vec, b: Vec, times = 1): Triple => [a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times];
+export const minus = (a: Vec, b: Vec): Triple => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const negative = (a: Vec): Triple => [-a[0], -a[1], -a[2]];
+export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a: Vec, b: Vec): Triple => [
   a[1] * b[2] - a[2] * b[1],
   a[2] * b[0] - a[0] * b[2],
   a[0] * b[1] - a[1] * b[0],
@@ -30,6 +34,16 @@ export function spanAlong(all: readonly Float32Array[], across: Triple): [low: n
       const at = dot([positions[k] ?? 0, positions[k + 1] ?? 0, positions[k + 2] ?? 0], across);
       [low, high] = [Math.min(low, at), Math.max(high, at)];
     }
+  }
+  return [low, high];
+}
+
+/** The lowest and the highest of some numbers. */
+export function rangeOf(values: Iterable<number>): [low: number, high: number] {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
   }
   return [low, high];
 }

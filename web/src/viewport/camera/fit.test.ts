@@ -2,7 +2,8 @@
 import { Vector3 } from "three";
 import { describe, expect, it, vi } from "vitest";
 import { fit, freeRoom, type Rect, type Room, shapeOf, wholeRoom } from "./fit";
-import { cornersOf, START, type Vec } from "./pose";
+import type { Vec } from "../../store/vectors";
+import { cornersOf, START } from "./pose";
 import { CameraView } from "./view";
 
 vi.stubGlobal("matchMedia", () => ({ matches: false }));

@@ -1,6 +1,7 @@
 // Which pose shows all of some points within a rectangle of the picture, and which rectangle what lies over the view
 // leaves free.
-import { axesOf, dot, FIELD, plus, type Pose, type Vec } from "./pose";
+import { dot, ORIGIN, plus, rangeOf, type Vec } from "../../store/vectors";
+import { axesOf, FIELD, type Pose } from "./pose";
 
 /** A rectangle of the picture, y downwards [px]. */
 export interface Rect {
@@ -35,7 +36,7 @@ export function fit(pose: Pose, points: readonly Vec[], room: Room, perspective:
   const upward = { places: up, near: across.near, half: high };
   const clear = CLEAR * across.near.reduce((most, lost) => Math.max(most, lost), 0);
   const height = Math.max(heightFor(across), heightFor(upward), clear, 1e-6);
-  const target = plus(plus(plus([0, 0, 0], axes.right, middleFor(across, height)), axes.up, middleFor(upward, height)), axes.eye, e);
+  const target = plus(plus(plus(ORIGIN, axes.right, middleFor(across, height)), axes.up, middleFor(upward, height)), axes.eye, e);
   return { ...pose, target, height, shift: room.at };
 }
 
@@ -79,7 +80,7 @@ function middleFor({ places, near }: Span, height: number): number {
 
 /** Halfway between the lowest and the highest. */
 function midrange(values: readonly number[]): number {
-  const [low, high] = values.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
+  const [low, high] = rangeOf(values);
   return (low + high) / 2;
 }
 
@@ -87,8 +88,8 @@ function midrange(values: readonly number[]): number {
 export function shapeOf(pose: Pose, points: readonly Vec[]): number {
   const axes = axesOf(pose);
   const reach = (axis: Vec) => {
-    const along = points.map((p) => dot(p, axis));
-    return along.reduce((most, at) => Math.max(most, at), -Infinity) - along.reduce((least, at) => Math.min(least, at), Infinity);
+    const [low, high] = rangeOf(points.map((p) => dot(p, axis)));
+    return high - low;
   };
   return Math.max(reach(axes.right), 1e-9) / Math.max(reach(axes.up), 1e-9);
 }

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { axesOf, interpolate, distanceOf, dot, FIELD, lookFromSide, orbit, pan, plus, type Pose, STANDARD, type Vec, zoom } from "./pose";
+import { dot, plus, type Vec } from "../../store/vectors";
+import { axesOf, interpolate, distanceOf, FIELD, lookFromSide, orbit, pan, type Pose, STANDARD, zoom } from "./pose";
 
 const pose: Pose = { target: [1, 2, 3], azimuth: 0.4, elevation: 0.3, height: 2, shift: [0, 0] };
 const near = (a: Vec, b: Vec) => a.forEach((value, k) => expect(value).toBeCloseTo(b[k] ?? NaN, 9));

@@ -1,7 +1,6 @@
 // Where one looks from: a point, a direction and a size, the same for perspective and parallel projection.
+import { minus, plus, type Vec } from "../../store/vectors";
 import type { StandardView } from "../../store/workspace";
-
-export type Vec = readonly [number, number, number];
 
 /**
  * target: what one looks at; azimuth, elevation: of the eye as seen from there; height: of the picture there [m]; shift:
@@ -71,7 +70,7 @@ export function lookFromSide(pose: Pose, side: StandardView): Pose {
 export function interpolate(a: Pose, b: Pose, share: number): Pose {
   const turn = ((((b.azimuth - a.azimuth + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
   return {
-    target: plus(a.target, [b.target[0] - a.target[0], b.target[1] - a.target[1], b.target[2] - a.target[2]], share),
+    target: plus(a.target, minus(b.target, a.target), share),
     azimuth: a.azimuth + turn * share,
     elevation: a.elevation + (b.elevation - a.elevation) * share,
     height: a.height * (b.height / a.height) ** share,
@@ -83,6 +82,3 @@ export function interpolate(a: Pose, b: Pose, share: number): Pose {
 export function cornersOf(box: readonly number[]): Vec[] {
   return Array.from({ length: 8 }, (_, k) => [box[k & 1 ? 3 : 0] ?? 0, box[k & 2 ? 4 : 1] ?? 0, box[k & 4 ? 5 : 2] ?? 0]);
 }
-
-export const plus = (a: Vec, b: Vec, times: number): Vec => [a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times];
-export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -1,6 +1,7 @@
 import { Vector3 } from "three";
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import { cornersOf, START, type Vec } from "./pose";
+import type { Vec } from "../../store/vectors";
+import { cornersOf, START } from "./pose";
 import { CameraView } from "./view";
 
 const BOX = [-1, -2, 0, 3, 1, 2];

@@ -1,9 +1,10 @@
 // What the camera sees now: its pose, moves that are under way, the three.js cameras, and the way between pixels and
 // rays.
 import { Matrix4, OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from "three";
+import { plus, type Vec } from "../../store/vectors";
 import type { StandardView } from "../../store/workspace";
 import { fit, type Room, wholeRoom } from "./fit";
-import { axesOf, distanceOf, FIELD, interpolate, lookFromSide, orbit, pan, plus, type Pose, START, type Vec, zoom } from "./pose";
+import { axesOf, distanceOf, FIELD, interpolate, lookFromSide, orbit, pan, type Pose, START, zoom } from "./pose";
 
 /** A line from the eye into the scene, in the canonical frame. */
 interface SightLine {

@@ -1,9 +1,10 @@
 // One state of the asset in three.js: its hulls with outlines and shadows, non-convex pieces, ghost, contact graph.
 import { Group, Scene as ThreeScene, Vector3 } from "three";
-import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
+import { boxAround, boxOf, matrixOf, type Point, triangleAt } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
 import type { SectionPlane } from "../../store/section";
+import { plus } from "../../store/vectors";
 import { AmbientOcclusion } from "./ambientOcclusion";
 import { GroundShadow } from "./groundShadow";
 import { type Appearance, hullLooks } from "./hullLooks";
@@ -13,7 +14,6 @@ import { planeIn, SectionFaces } from "./section";
 import { type Frame, type Strokes } from "./strokes";
 import { Surfaces } from "./surface";
 import type { ThemeColors } from "./themeColors";
-
 
 export class AssetDrawing {
   readonly root = new ThreeScene();
@@ -129,9 +129,6 @@ export function* spotsOf({ hulls }: AssetDrawing, place: number, explode: number
   const { faces, index, positions } = hulls.shapes;
   const away = hulls.aways[place] ?? [0, 0, 0];
   for (let face = faces[place] ?? 0; face < (faces[place + 1] ?? 0); face++) {
-    const mid = (axis: number): number =>
-      [0, 1, 2].reduce((sum, k) => sum + (positions[3 * (index[3 * face + k] ?? 0) + axis] ?? 0) / 3, 0) +
-      explode * (away[axis] ?? 0);
-    yield [mid(0), mid(1), mid(2)];
+    yield plus(triangleAt(positions, index, face).getMidpoint(new Vector3()).toArray(), away, explode);
   }
 }

@@ -2,6 +2,7 @@
 import { BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
 import type { CutPlane as Plane } from "../../store/cut";
 import type { SectionPlane } from "../../store/section";
+import { dot, plus } from "../../store/vectors";
 import type { Shape } from "../../server/packet";
 import { cutPolygon } from "../geometry/section";
 import { mergeShapes } from "../geometry/triangles";
@@ -29,13 +30,13 @@ export class CutPlaneDrawing {
     this.object.visible = plane !== null && shape !== null;
     if (!plane || !shape) return;
     this.object.position.set(away[0] ?? 0, away[1] ?? 0, away[2] ?? 0);
-    const at: SectionPlane = { normal: plane.across, at: plane.at.reduce((sum, value, k) => sum + value * (plane.across[k] ?? 0), 0) };
+    const at: SectionPlane = { normal: plane.across, at: dot(plane.at, plane.across) };
     const merged = mergeShapes([shape]);
     const corners = frameCorners(at, [...merged.boxes]);
     this.square.geometry.dispose();
     this.square.geometry = new BufferGeometry().setFromPoints(corners.map((corner) => new Vector3(...corner)));
     this.square.geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    const tip = (by: number) => plane.at.map((value, k) => value + by * plane.span * (plane.across[k] ?? 0));
+    const tip = (by: number) => plus(plane.at, plane.across, by * plane.span);
     this.lines.set(linesBetween([...sidesOf(corners), [tip(-0.32), tip(0.32)], ...sidesOf(cutPolygon(merged, 0, at, [0, 0, 0]))]));
   }
 

@@ -108,8 +108,6 @@ function lines(rows: Rows, middle: readonly [number, number], rim: number): Line
 
 const snap = (value: number, step: number): number => Math.round(value / step) * step;
 
-// Round lengths, and how lengths and volumes are written.
-
 /** The largest of 1, 2 and 5 times a power of ten that is not above a length. */
 export function niceStep(length: number): number {
   const power = 10 ** Math.floor(Math.log10(length));

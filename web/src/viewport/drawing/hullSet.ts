@@ -1,9 +1,11 @@
 // All hulls of a scene as three.js objects: one mesh, its edges, and tables of colours and states.
 import { BufferAttribute, BufferGeometry, type Color, Group, LineSegments, Mesh, ShaderMaterial, type ShaderMaterialParameters } from "three";
 import { EDGE, type Edges, edgesOf, type Outline } from "../geometry/edges";
-import { type Facets, facetsOf, type MergedShapes, mergeShapes, middleOf, type Point } from "../geometry/triangles";
+import { facetsOf, joinShapes, type MergedShapes, mergeShapes, middleOf, type Point } from "../geometry/triangles";
 import type { Fill } from "../../pictures/hullColors";
 import type { Shape } from "../../server/packet";
+import { oncePer } from "../../store/once";
+import { minus, ORIGIN, plus } from "../../store/vectors";
 import { ByteTable, FILL_BYTES, hullMaterial, lineMaterial, placeUniforms, type SharedUniforms, shareUniforms } from "./hullShader";
 import type { ThemeColors } from "./themeColors";
 
@@ -41,7 +43,7 @@ export class HullSet {
     this.places = new Map(this.names.map((name, k) => [name, k]));
     this.shapes = mergeShapes(hulls.map((hull) => hull.shape));
     this.middles = hulls.map((_, k) => middleOf(this.shapes.boxes, k));
-    this.aways = this.middles.map((at) => [at[0] - centre[0], at[1] - centre[1], at[2] - centre[2]] as const);
+    this.aways = this.middles.map((at) => minus(at, centre));
     this.visible = hulls.map(() => true);
     this.edges = hulls.map((hull) => cachedEdges(hull.shape));
     this.colors = new ByteTable(hulls.length, true);
@@ -115,8 +117,7 @@ export class HullSet {
 
   /** Where the middle of a hull is in the exploded view, in the frame of the file. */
   middle(k: number, explode: number): Point {
-    const [m, a] = [this.middles[k] ?? [0, 0, 0], this.aways[k] ?? [0, 0, 0]];
-    return [m[0] + explode * a[0], m[1] + explode * a[1], m[2] + explode * a[2]];
+    return plus(this.middles[k] ?? ORIGIN, this.aways[k] ?? ORIGIN, explode);
   }
 
   /** Materials stay: the last one of a kind would take its compiled shader along. */
@@ -129,13 +130,8 @@ export class HullSet {
 }
 
 const NOTHING = new Float32Array(0);
-const knownEdges = new WeakMap<Shape, Edges>();
-
-function cachedEdges(shape: Shape): Edges {
-  const edges = knownEdges.get(shape) ?? edgesOf(shape);
-  knownEdges.set(shape, edges);
-  return edges;
-}
+const cachedEdges = oncePer(edgesOf);
+const cachedFacets = oncePer(facetsOf);
 
 const bytes = (color: Color): [number, number, number] => {
   const hex = color.getHex();
@@ -151,31 +147,17 @@ interface Places {
 /** Faces of all hulls; each vertex knows the place of its hull, where that drifts in the exploded view, and its layer. */
 function faceGeometry(shapes: readonly Shape[], places: Places): BufferGeometry {
   const parts = shapes.map(cachedFacets);
-  const vertices = parts.reduce((sum, part) => sum + part.positions.length / 3, 0);
-  const corners = parts.reduce((sum, part) => sum + part.index.length, 0);
-  const [positions, normals] = [new Float32Array(3 * vertices), new Float32Array(3 * vertices)];
-  const [owner, index] = [new Float32Array(vertices), new Uint32Array(corners)];
-  let [vertex, corner] = [0, 0];
-  parts.forEach((part, k) => {
-    const many = part.positions.length / 3;
-    positions.set(part.positions, 3 * vertex);
-    normals.set(part.normals, 3 * vertex);
-    owner.fill(k, vertex, vertex + many);
-    for (const at of part.index) index[corner++] = at + vertex;
-    vertex += many;
-  });
+  const { positions, owner, index } = joinShapes(parts);
+  const normals = new Float32Array(positions.length);
+  let first = 0;
+  for (const part of parts) {
+    normals.set(part.normals, first);
+    first += part.normals.length;
+  }
   const out = geometryOf(positions, owner, places);
   out.setAttribute("normal", new BufferAttribute(normals, 3));
   out.setIndex(new BufferAttribute(index, 1));
   return out;
-}
-
-const knownFacets = new WeakMap<Shape, Facets>();
-
-function cachedFacets(shape: Shape): Facets {
-  const facets = knownFacets.get(shape) ?? facetsOf(shape);
-  knownFacets.set(shape, facets);
-  return facets;
 }
 
 /** Lines of all hulls; sharp: how many vertices those of the sharp edges have. */

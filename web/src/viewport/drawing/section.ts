@@ -4,6 +4,7 @@ import { BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Plane, Vector3 }
 import { axesIn, cutPolygon } from "../geometry/section";
 import type { Point } from "../geometry/triangles";
 import { type SectionPlane, spanOfBox } from "../../store/section";
+import { ORIGIN, plus } from "../../store/vectors";
 import type { HullSet } from "./hullSet";
 import { sectionFaceMaterial } from "./hullShader";
 import { type Frame, linesBetween, Strokes } from "./strokes";
@@ -82,8 +83,7 @@ export class SectionFaces {
 
   private polygon(k: number, plane: SectionPlane, explode: number): Point[] {
     if (!this.hulls.visible[k]) return [];
-    const away = this.hulls.aways[k] ?? [0, 0, 0];
-    return cutPolygon(this.hulls.shapes, k, plane, [explode * away[0], explode * away[1], explode * away[2]]);
+    return cutPolygon(this.hulls.shapes, k, plane, plus(ORIGIN, this.hulls.aways[k] ?? ORIGIN, explode));
   }
 }
 
@@ -154,6 +154,6 @@ export function frameCorners({ normal, at }: SectionPlane, box: readonly number[
     return [low - more, high + more];
   };
   const [us, vs] = [reach(u), reach(v)];
-  const corner = (a: number, b: number): Point => [0, 1, 2].map((k) => at * (normal[k] ?? 0) + a * (u[k] ?? 0) + b * (v[k] ?? 0)) as unknown as Point;
+  const corner = (a: number, b: number): Point => plus(plus(plus(ORIGIN, normal, at), u, a), v, b);
   return [corner(us[0], vs[0]), corner(us[1], vs[0]), corner(us[1], vs[1]), corner(us[0], vs[1])];
 }

@@ -25,10 +25,3 @@ export function readThemeColors(): ThemeColors {
   const dark = document.documentElement.dataset["theme"] === "dark";
   return { ...(Object.fromEntries(colors) as Record<keyof typeof NAMES, Color>), dark };
 }
-
-/** Calls back when the theme changes, until the returned function is called. */
-export function watchTheme(changed: () => void): () => void {
-  const watcher = new MutationObserver(changed);
-  watcher.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
-  return () => watcher.disconnect();
-}

@@ -1,5 +1,6 @@
 // The edges of a shape with the normals on both sides, and which of them are on its silhouette as seen from an eye.
 import type { Shape } from "../../server/packet";
+import { ORIGIN, plus, rangeOf } from "../../store/vectors";
 import { faceNormals, type Point } from "./triangles";
 
 /** Numbers of one edge: its two ends, and the normals of the faces on its two sides. */
@@ -49,7 +50,8 @@ function packEdges(sides: [number, number, number, number][], positions: Float32
 
 /** For each vertex the first one in its place: rims of round primitives are there twice. */
 function weldVertices(positions: Float32Array): Uint32Array {
-  const [low, size] = extent(positions);
+  const [low, high] = rangeOf(positions);
+  const size = high > low ? high - low : 1;
   const first = new Map<number, number>();
   const out = new Uint32Array(positions.length / 3);
   for (let k = 0; k < out.length; k++) {
@@ -62,16 +64,6 @@ function weldVertices(positions: Float32Array): Uint32Array {
     if (known === undefined) first.set(key, k);
   }
   return out;
-}
-
-function extent(positions: Float32Array): [low: number, size: number] {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const at of positions) {
-    if (at < low) low = at;
-    if (at > high) high = at;
-  }
-  return [low, high > low ? high - low : 1];
 }
 
 const dotAt = (n: Float32Array, a: number, b: number): number =>
@@ -96,7 +88,7 @@ export const LINE = 6;
 export function writeSilhouettes(outlines: readonly Outline[], explode: number, eye: Eye, out: Float32Array): number {
   let count = 0;
   for (const { records, away } of outlines) {
-    const off: Point = [explode * away[0], explode * away[1], explode * away[2]];
+    const off = plus(ORIGIN, away, explode);
     for (let e = 0; e < records.length; e += EDGE) {
       if (!isSilhouette(records, e, off, eye)) continue;
       for (let k = 0; k < LINE; k++) out[LINE * count + k] = (records[e + k] ?? 0) + (off[k % 3] ?? 0);

@@ -1,5 +1,6 @@
 // Which of two shapes is shown where their faces lie in one plane: each has a layer, and the lower one is in front. Without
 // that the rounding of depths decides in each pixel, and another way as soon as the camera moves.
+import { rangeOf } from "../../store/vectors";
 
 /** Boxes nearer than this share of the whole are taken to touch. */
 const NEAR = 1e-4;
@@ -21,7 +22,8 @@ export function layersOf(boxes: Float32Array): Float32Array {
 function touching(boxes: Float32Array): number[][] {
   const at = (k: number, side: number) => boxes[6 * k + side] ?? 0;
   const count = boxes.length / 6;
-  const gap = NEAR * sizeOf(boxes);
+  const [low, high] = rangeOf(boxes);
+  const gap = NEAR * Math.max(high - low, 0);
   const order = Array.from({ length: count }, (_, k) => k).sort((a, b) => at(a, 0) - at(b, 0));
   const out: number[][] = order.map(() => []);
   const meet = (a: number, b: number) => [1, 2].every((axis) => at(a, axis) <= at(b, axis + 3) + gap && at(b, axis) <= at(a, axis + 3) + gap);
@@ -35,10 +37,4 @@ function touching(boxes: Float32Array): number[][] {
     }
   });
   return out;
-}
-
-function sizeOf(boxes: Float32Array): number {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of boxes) [low, high] = [Math.min(low, value), Math.max(high, value)];
-  return high > low ? high - low : 0;
 }

@@ -14,12 +14,7 @@ export function boxRegion([x0, y0]: Spot, [x1, y1]: Spot): Region {
 
 /** Whether a spot is inside, by counting the borders to its right. */
 export function isInside(region: Region, [x, y]: Spot): boolean {
-  let inside = false;
-  region.forEach(([x1, y1], k) => {
-    const [x0, y0] = region[(k + region.length - 1) % region.length] ?? [0, 0];
-    if (y0 > y !== y1 > y && x < x0 + ((y - y0) / (y1 - y0)) * (x1 - x0)) inside = !inside;
-  });
-  return inside;
+  return rowSpans(region, y).filter((border) => x < border).length % 2 === 1;
 }
 
 /** The parts of a line of pixels that are inside, as pairs of ends. */

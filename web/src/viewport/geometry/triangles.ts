@@ -1,5 +1,5 @@
 // The triangles of many shapes in one buffer, with flat faces of few vertices, and the boxes around shapes.
-import { Box3, Matrix4, Triangle } from "three";
+import { Box3, Matrix4, Triangle, Vector3 } from "three";
 import type { Shape } from "../../server/packet";
 import { layersOf } from "./layers";
 
@@ -19,6 +19,12 @@ export interface MergedShapes {
 }
 
 export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
+  const boxes = new Float32Array(shapes.flatMap(({ positions }) => boxOf(positions)));
+  return { ...joinShapes(shapes), boxes, layers: layersOf(boxes) };
+}
+
+/** The triangles of shapes one after the other. */
+export function joinShapes(shapes: readonly Shape[]): Omit<MergedShapes, "boxes" | "layers"> {
   const vertices = shapes.reduce((sum, shape) => sum + shape.positions.length / 3, 0);
   const corners = shapes.reduce((sum, shape) => sum + shape.index.length, 0);
   const out = {
@@ -27,8 +33,6 @@ export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
     owner: new Float32Array(vertices),
     index: new Uint32Array(corners),
     faces: new Uint32Array(shapes.length + 1),
-    boxes: new Float32Array(6 * shapes.length),
-    layers: new Float32Array(0),
   };
   let vertex = 0;
   let corner = 0;
@@ -38,10 +42,9 @@ export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
     out.owner.fill(k, vertex, vertex + many);
     for (const place of shape.index) out.index[corner++] = place + vertex;
     out.faces[k + 1] = corner / 3;
-    out.boxes.set(boxOf(shape.positions), 6 * k);
     vertex += many;
   });
-  return { ...out, layers: layersOf(out.boxes) };
+  return out;
 }
 
 /** The lowest and the highest corner of some points. */
@@ -116,18 +119,9 @@ export function triangleAt(positions: Float32Array, index: Uint32Array, face: nu
 }
 
 /** The normal of each triangle. */
-export function faceNormals({ positions: p, index }: Shape): Float32Array {
+export function faceNormals({ positions, index }: Shape): Float32Array {
   const out = new Float32Array(index.length);
-  for (let k = 0; k < index.length; k += 3) {
-    const [a, b, c] = [3 * (index[k] ?? 0), 3 * (index[k + 1] ?? 0), 3 * (index[k + 2] ?? 0)];
-    const [ax, ay, az] = [p[a] ?? 0, p[a + 1] ?? 0, p[a + 2] ?? 0];
-    const [ux, uy, uz] = [(p[b] ?? 0) - ax, (p[b + 1] ?? 0) - ay, (p[b + 2] ?? 0) - az];
-    const [vx, vy, vz] = [(p[c] ?? 0) - ax, (p[c + 1] ?? 0) - ay, (p[c + 2] ?? 0) - az];
-    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    const length = Math.hypot(x, y, z) || 1;
-    out[k] = x / length;
-    out[k + 1] = y / length;
-    out[k + 2] = z / length;
-  }
+  const normal = new Vector3();
+  for (let face = 0; 3 * face < index.length; face++) triangleAt(positions, index, face).getNormal(normal).toArray(out, 3 * face);
   return out;
 }

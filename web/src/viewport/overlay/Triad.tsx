@@ -52,6 +52,6 @@ export function axesAsSeen(pose: Pose, yUp = false): readonly { x: number; y: nu
   const { right, up, eye } = axesOf(pose);
   return (["x", "y", "z"] as const).map((axis) => {
     const end = axisShown(axis, yUp);
-    return { x: dot(end, [...right]), y: -dot(end, [...up]), near: dot(end, [...eye]) };
+    return { x: dot(end, right), y: -dot(end, up), near: dot(end, eye) };
   });
 }

@@ -10,6 +10,7 @@ import type { Point } from "../geometry/triangles";
 import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
 import type { Pane } from "../stage/panes";
 import type { Stage } from "../stage/stage";
+import { ORIGIN, plus } from "../../store/vectors";
 import { selectMore, setTool, useWorkspace } from "../../store/workspace";
 import type { Drag } from "./gestures";
 import { noteDrag } from "./heldKeys";
@@ -90,10 +91,7 @@ function isCutAway({ section, settings }: Stage, { hulls, turned }: AssetDrawing
 
 /** The corners of the box of a hull where it is shown. */
 function boxCorners({ shapes, aways }: AssetDrawing["hulls"], k: number, explode: number): Point[] {
-  return cornersOf([...shapes.boxes.subarray(6 * k, 6 * k + 6)]).map(([x, y, z]) => {
-    const away = aways[k] ?? [0, 0, 0];
-    return [x + explode * away[0], y + explode * away[1], z + explode * away[2]] as const;
-  });
+  return cornersOf([...shapes.boxes.subarray(6 * k, 6 * k + 6)]).map((corner) => plus(corner, aways[k] ?? ORIGIN, explode));
 }
 
 /** Where the corners of each hull's box are seen. */

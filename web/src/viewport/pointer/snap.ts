@@ -1,6 +1,5 @@
 // The point of a hull that the ruler takes under the pointer: a corner where one is near, else an edge, else the face.
 import { Matrix4, Vector4 } from "three";
-import { plus } from "../camera/pose";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { planeIn } from "../drawing/section";
 import { EDGE, type Eye } from "../geometry/edges";
@@ -10,6 +9,7 @@ import type { Pane } from "../stage/panes";
 import { rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
 import type { RulerPoint } from "../../store/ruler";
+import { dot, minus, plus } from "../../store/vectors";
 
 const CORNER_NEAR = 10; // px
 const EDGE_NEAR = 7;
@@ -71,9 +71,8 @@ const pointIn = (records: Float32Array, at: number): Point => [records[at] ?? 0,
 
 /** Whether a face beside an edge does. */
 function looksAtEye(records: Float32Array, e: number, at: Point, eye: Eye): boolean {
-  const to: Point = eye.parallel ? eye.at : plus(eye.at, at, -1);
-  const turned = (n: Point) => n[0] * to[0] + n[1] * to[1] + n[2] * to[2];
-  return turned(pointIn(records, e + 6)) > 0 || turned(pointIn(records, e + 9)) > 0;
+  const to: Point = eye.parallel ? eye.at : minus(eye.at, at);
+  return [6, 9].some((side) => dot(pointIn(records, e + side), to) > 0);
 }
 
 interface Projected {
@@ -104,7 +103,7 @@ function nearestOnEdge(place: number, a: Point, b: Point, p: Projected, q: Proje
   if (share <= 0 || share >= 1 || far >= EDGE_NEAR) return out;
   // what is halfway on the screen is nearer to the end that is nearer to the eye
   const along = (share * p.w) / ((1 - share) * q.w + share * p.w);
-  const at = plus(a, [b[0] - a[0], b[1] - a[1], b[2] - a[2]], along);
+  const at = plus(a, minus(b, a), along);
   return [...out, { place, at, snap: "edge", far }];
 }
 
@@ -115,7 +114,7 @@ function isSeen(stage: Stage, side: AssetDrawing, pane: Pane, at: Point): boolea
   if (plane && beyond(plane, at) > slack) return false;
   const { x, y } = projection(stage, side, pane)(at);
   const ray = rayAt(stage, x + pane.x, y);
-  const distance = plus(at, ray.from, -1).reduce((sum, value, k) => sum + value * (ray.along[k] ?? 0), 0);
+  const distance = dot(minus(at, ray.from), ray.along);
   const met = castThrough(side.hulls, ray, stage.settings.explode, plane);
   return !met || met.distance >= distance - slack;
 }

@@ -8,7 +8,7 @@ import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
 import { hullsToPaint } from "../../store/alike";
 import { hullToCut, planeOf, setCut, shareAt, useCut } from "../../store/cut";
-import type { Triple } from "../../store/vectors";
+import { ORIGIN, plus, type Triple, type Vec } from "../../store/vectors";
 import { endStroke, paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
 import { dropPoints, pointRuler, takePoint } from "../../store/ruler";
@@ -114,7 +114,7 @@ function beginSlide(stage: Stage, hull: SceneHull, start: Spot): Drag | null {
   const pane = stage.panes().at(-1);
   if (!plane || !pane) return null;
   const before = useCut.getState().share;
-  const ahead = plane.at.map((value, k) => value + plane.span * (plane.across[k] ?? 0)) as Triple;
+  const ahead = plus(plane.at, plane.across, plane.span);
   const [a, b] = [stage.pixelOf(plane.at, pane), stage.pixelOf(ahead, pane)];
   const [dx, dy] = [b.x - a.x, b.y - a.y];
   const length = Math.max(dx * dx + dy * dy, 100);
@@ -144,8 +144,7 @@ function beginLine(stage: Stage, hull: SceneHull, start: Spot): Drag {
 }
 
 /** A point of the file's frame where the hull is when it is not moved by the exploded view. */
-function unexploded(stage: Stage, hull: SceneHull, at: readonly number[]): Triple {
+function unexploded(stage: Stage, hull: SceneHull, at: Vec): Triple {
   const k = stage.shown?.hulls.places.get(hull.name) ?? -1;
-  const away = stage.shown?.hulls.aways[k] ?? [0, 0, 0];
-  return at.map((value, axis) => value - stage.settings.explode * (away[axis] ?? 0)) as Triple;
+  return plus(at, stage.shown?.hulls.aways[k] ?? ORIGIN, -stage.settings.explode);
 }

@@ -1,6 +1,7 @@
 // Keeps the stage in step with the stores and the theme, from when it is shown in an element of the page.
 import type { WebGLRenderer } from "three";
-import { readThemeColors, watchTheme } from "../drawing/themeColors";
+import { readThemeColors } from "../drawing/themeColors";
+import { watchTheme } from "../../pictures/cssColor";
 import { api } from "../../server/api";
 import { followBrush, useAlike } from "../../store/alike";
 import { hullToCut, planeOf, useCut } from "../../store/cut";

@@ -1,11 +1,12 @@
 // From where to look at some hulls: a side from which they are seen, near enough to tell them, with what is around them.
 import { Vector3 } from "three";
 import { fit, type Room } from "../camera/fit";
-import { axesOf, distanceOf, orbit, plus, type Pose } from "../camera/pose";
+import { axesOf, distanceOf, orbit, type Pose } from "../camera/pose";
 import type { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf, spotsOf } from "../drawing/assetDrawing";
 import { castRay } from "../geometry/ray";
 import type { Point } from "../geometry/triangles";
+import { minus, plus } from "../../store/vectors";
 import type { Settings } from "./panes";
 
 /** Turns to try, sideways and up: the present side first, so that one is not led about without need. */
@@ -66,8 +67,7 @@ function shareSeen({ hulls, turned }: AssetDrawing, spots: readonly Spot[], pose
   const eye = new Vector3(...plus(pose.target, axesOf(pose).eye, distanceOf(pose)));
   const from = eye.applyMatrix4(turned.matrix.clone().invert()).toArray();
   const seen = spots.filter(({ place, at }) => {
-    const along: Point = [at[0] - from[0], at[1] - from[1], at[2] - from[2]];
-    return castRay(hulls.shapes, { from, along }, hulls.visible, hulls.aways, explode)?.place === place;
+    return castRay(hulls.shapes, { from, along: minus(at, from) }, hulls.visible, hulls.aways, explode)?.place === place;
   });
   return spots.length ? seen.length / spots.length : 0;
 }
