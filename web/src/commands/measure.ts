@@ -3,11 +3,11 @@ import { nearestPoints } from "../store/nearest";
 import { addMeasure, clearMeasures, measureExtents, measureGap, useRuler } from "../store/ruler";
 import { type Scene, useScenes } from "../store/scenes";
 import { setSection, useSection } from "../store/section";
-import { setTool, setUnit, useWorkspace } from "../store/workspace";
+import { setUnit, useWorkspace } from "../store/workspace";
 import { commandsOf, needs } from "./command";
+import { isHere, toolCommand } from "./view";
 
 const here = (): Scene | null => useScenes.getState().scene;
-const isHere = needs("No asset is shown.", () => here() !== null);
 const isCutOpen = needs("Show the section plane first (Shift+K).", () => useSection.getState().on);
 const hasMeasures = needs("Nothing is measured here.", () => useRuler.getState().measures.some(({ asset }) => asset === here()?.asset));
 
@@ -40,14 +40,7 @@ export const measureCommands = commandsOf("View", [
     enabled: isCutOpen,
     run: () => setSection({ flipped: !useSection.getState().flipped }),
   },
-  {
-    id: "tool-ruler",
-    title: "Ruler: measure between two points",
-    words: "distance length",
-    keys: ["D"],
-    enabled: isHere,
-    run: () => setTool(useWorkspace.getState().tool === "ruler" ? "select" : "ruler"),
-  },
+  { ...toolCommand("ruler", "Ruler: measure between two points", ["D"]), group: "View", words: "distance length" },
   {
     id: "measure-selection",
     title: "Measure the selection: the gap between two hulls, or extents",

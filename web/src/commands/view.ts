@@ -6,7 +6,7 @@ import { dismissToast, lastProblem, notify } from "../store/toasts";
 import { lookFrom, setTool, setView, type StandardView, type Tool, useWorkspace, type ViewSettings } from "../store/workspace";
 import { type Command, commandsOf, type Condition, needs } from "./command";
 
-const isHere = needs("No asset is shown.", () => useScenes.getState().scene !== null);
+export const isHere = needs("No asset is shown.", () => useScenes.getState().scene !== null);
 const isNotLabelling = needs("In Label, digits give labels.", () => isHere() && useWorkspace.getState().stage !== "label");
 
 const SIDES: readonly { side: StandardView; digit: 1 | 3 | 7; opposite: StandardView }[] = [
@@ -47,7 +47,7 @@ function toggleCommand(what: Switch, title: string, keys: readonly string[]): Co
   return { id: `toggle-${what}`, title, group: "View", keys, run: () => setView(flip(useWorkspace.getState().view)) };
 }
 
-function toolCommand(name: Tool, title: string, keys: readonly string[]): Command {
+export function toolCommand(name: Tool, title: string, keys: readonly string[]): Command {
   const run = () => setTool(useWorkspace.getState().tool === name ? "select" : name);
   return { id: `tool-${name}`, title, group: "Select", keys, enabled: isHere, run };
 }

@@ -17,10 +17,9 @@ export type ShapesPacket = Packet<ShapesHeader>;
 export type EditedPacket = Packet<EditHeader>;
 
 export function readPacket<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuffer): Packet<Header> {
-  const length = new DataView(buffer).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as Header;
+  const { header, end } = readHeader<Header>(buffer);
   const vertices = header.rows.reduce((sum, row) => sum + row.vertices, 0);
-  let vertex = 4 + length;
+  let vertex = end;
   let face = vertex + 12 * vertices;
   const shapes = header.rows.map((row) => {
     const shape = {
@@ -36,7 +35,11 @@ export function readPacket<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuf
 
 /** A picture packet: names of hulls in order, and the PNG that shows their positions. */
 export function readPicture(buffer: ArrayBuffer): { names: string[]; png: Blob } {
-  const length = new DataView(buffer).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as { names: string[] };
-  return { names: header.names, png: new Blob([new Uint8Array(buffer, 4 + length)], { type: "image/png" }) };
+  const { header, end } = readHeader<{ names: string[] }>(buffer);
+  return { names: header.names, png: new Blob([new Uint8Array(buffer, end)], { type: "image/png" }) };
+}
+
+function readHeader<Header>(buffer: ArrayBuffer): { header: Header; end: number } {
+  const end = 4 + new DataView(buffer).getUint32(0, true);
+  return { header: JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, end - 4))) as Header, end };
 }

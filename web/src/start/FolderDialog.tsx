@@ -3,10 +3,11 @@ import { CornerLeftUp, Folder, FolderCheck, House } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { type ComponentProps, type KeyboardEvent, useEffect, useEffectEvent, useRef, useState } from "react";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import { useStart } from "../store/start";
 import { countText } from "../store/words";
 import { Button, IconButton } from "../ui/Button";
+import { moveFocusBy } from "../ui/moveFocusBy";
 import { Note } from "../ui/Section";
 import type { FolderView } from "../wire";
 import css from "./folders.module.css";
@@ -119,8 +120,7 @@ function useFolder(from: string, places: readonly string[]) {
       setProblem(null);
       return true;
     } catch (error) {
-      if (!(error instanceof ServerProblem)) throw error;
-      const { where, message, remedy } = error.problem;
+      const { where, message, remedy } = problemOf(error).problem;
       setProblem(`${where ? `${where}: ` : ""}${message}. ${remedy ?? ""}`.trim());
       return false;
     }
@@ -146,11 +146,4 @@ function focusFirst(list: HTMLElement | null): void {
 }
 
 /** Arrow keys go through the folders. */
-function moveFocus(event: KeyboardEvent<HTMLUListElement>): void {
-  const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-  if (by === undefined) return;
-  event.preventDefault();
-  const buttons = [...event.currentTarget.querySelectorAll<HTMLButtonElement>("button")];
-  const here = buttons.findIndex((button) => button === document.activeElement);
-  buttons[Math.min(Math.max(here + by, 0), buttons.length - 1)]?.focus();
-}
+const moveFocus = (event: KeyboardEvent) => moveFocusBy(event, { ArrowDown: 1, ArrowUp: -1 }, "button");

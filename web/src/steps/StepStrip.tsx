@@ -9,6 +9,7 @@ import { useAssetView } from "../store/scenes";
 import { countText } from "../store/words";
 import { show, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
+import { moveFocusBy } from "../ui/moveFocusBy";
 import { useReorder } from "../ui/useReorder";
 import type { AssetView, ManualEditView } from "../wire";
 import { ACTION_ICONS } from "./actionIcon";
@@ -50,7 +51,7 @@ function Steps({ view, count }: { view: AssetView; count: number }) {
       className={css.strip}
       aria-label="Steps of this asset"
       data-tour="steps"
-      onKeyDown={(event) => moveFocus(event, list.current)}
+      onKeyDown={moveFocus}
     >
       <li className={css.chip} data-shown={source || undefined}>
         <button
@@ -75,14 +76,7 @@ function Steps({ view, count }: { view: AssetView; count: number }) {
 }
 
 /** Arrow keys go from chip to chip; Tab leaves them. */
-function moveFocus(event: KeyboardEvent, list: HTMLElement | null): void {
-  const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-  if (by === undefined || event.altKey || !list) return;
-  const chips = [...list.querySelectorAll<HTMLElement>("[data-chip]")];
-  const here = chips.findIndex((chip) => chip === document.activeElement);
-  event.preventDefault();
-  chips[Math.min(Math.max(here + by, 0), chips.length - 1)]?.focus();
-}
+const moveFocus = (event: KeyboardEvent) => moveFocusBy(event, { ArrowLeft: -1, ArrowRight: 1 }, "[data-chip]");
 
 /** The edits by hand of an asset, which are done again after the program. */
 function Corrections({ view }: { view: AssetView }) {

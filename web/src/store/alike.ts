@@ -1,7 +1,7 @@
 // The hulls that look like the one under the brush: they are outlined, and a click paints them with it.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import { placeOf, sheetName } from "./hullPlaces";
 import { ownHulls } from "./labels";
 import { useScenes } from "./scenes";
@@ -64,6 +64,6 @@ async function find(hull: string): Promise<void> {
     const others = listFree(names).filter((name) => name !== hull);
     if (others.length) useAlike.setState({ hull, others, since: performance.now() });
   } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error; // a click then paints the hull alone
+    problemOf(error); // a click then paints the hull alone
   }
 }

@@ -1,8 +1,8 @@
 // What an extractor that is being typed selects: here, and on the whole family.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
-import type { Mark, SelectionView } from "../wire";
+import { problemOf } from "../server/http";
+import type { SelectionView } from "../wire";
 import { type Coverage, coverageOf } from "./outcome";
 import { useScenes } from "./scenes";
 import { type Highlight, select, setHighlight, useWorkspace, type WorkspaceState } from "./workspace";
@@ -78,8 +78,8 @@ async function search(extractor: string, signal: AbortSignal): Promise<void> {
     void searchFamily(extractor, stepsOf(showing) + 1, signal);
   } catch (error) {
     if (signal.aborted) return;
-    if (!(error instanceof ServerProblem)) throw error;
-    useExtractor.setState({ found: { select: [], sentence: "", mark: markOf(error) }, of, family: null });
+    const mark = { line: 1, column: 1, message: problemOf(error).problem.message };
+    useExtractor.setState({ found: { select: [], sentence: "", mark }, of, family: null });
     pointOut(null);
   }
 }
@@ -99,5 +99,3 @@ function requestKey(text: string): string {
 }
 
 const stepsOf = (showing: WorkspaceState["showing"]): number => (showing.kind === "steps" ? showing.steps : 0);
-
-const markOf = (error: ServerProblem): Mark => ({ line: 1, column: 1, message: error.problem.message });

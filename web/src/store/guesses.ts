@@ -1,7 +1,7 @@
 // What the learned program would select on the asset in hand, rule by rule, offered one after the other.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import type { Guess } from "../wire";
 import { callOf } from "./actions";
 import { draftStep } from "./draft";
@@ -69,8 +69,7 @@ async function fetchGuesses(): Promise<Partial<GuessesState>> {
   try {
     return { ...noGuesses, asset, guesses: await api.guesses(asset) };
   } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error;
-    return { ...noGuesses, asset, error: error.problem.message };
+    return { ...noGuesses, asset, error: problemOf(error).problem.message };
   }
 }
 

@@ -1,7 +1,7 @@
 // What the action in hand would make of the asset: asked of the server whenever action, selection or asset change.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import type { EditedPacket } from "../server/packet";
 import type { EditHeader, PreviewRequest } from "../wire";
 import { callOf, formOf, missingArgument } from "./actions";
@@ -86,8 +86,7 @@ async function requestPreview(request: PreviewRequest, signal: AbortSignal): Pro
   } catch (error) {
     if (signal.aborted) return;
     setPreview(null);
-    if (error instanceof ServerProblem) useDraftStatus.setState({ problem: error.problem });
-    else throw error;
+    useDraftStatus.setState({ problem: problemOf(error).problem });
   }
 }
 

@@ -2,7 +2,7 @@
 // it goes with asset, stage and what the server says.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf, ServerProblem } from "../server/http";
 import type { EditedPacket, ShapesPacket } from "../server/packet";
 import type { AssetView, Problem } from "../wire";
 import { notePositions } from "./hullPlaces";
@@ -49,8 +49,8 @@ export async function showScene(asset: string | null, showing: Showing): Promise
     const scene = await (isSheet ? sheetSceneOf(sheet, asset) : sceneOf(asset, showing));
     if (mine === wanted) useScenes.setState({ scene, loading: false, problem: null });
   } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error;
-    if (mine === wanted) useScenes.setState({ scene: null, loading: false, problem: error.problem });
+    const { problem } = problemOf(error);
+    if (mine === wanted) useScenes.setState({ scene: null, loading: false, problem });
   }
 }
 

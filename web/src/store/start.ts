@@ -1,7 +1,7 @@
 // The start page: what the server says of it, the new project that is being put together, and what went wrong.
 import { create } from "zustand";
 import { api } from "../server/api";
-import { ServerProblem } from "../server/http";
+import { problemOf } from "../server/http";
 import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
 import { chosenOptions } from "./decompose";
 import { isSending, type PlacedFile, sendFiles } from "./upload";
@@ -131,8 +131,7 @@ async function attempt(busy: NonNullable<StartState["busy"]>, place: Place, does
   try {
     await does();
   } catch (error) {
-    if (!(error instanceof ServerProblem)) throw error;
-    set({ problem: { place, problem: error.problem } });
+    set({ problem: { place, problem: problemOf(error).problem } });
   } finally {
     set({ busy: null });
   }

@@ -6,6 +6,7 @@ export const ORIGIN: Vec = [0, 0, 0];
 
 export const plus = (a: Vec, b: Vec, times = 1): Triple => [a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times];
 export const minus = (a: Vec, b: Vec): Triple => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const midpoint = (a: Vec, b: Vec): Triple => plus(a, minus(b, a), 0.5);
 export const negative = (a: Vec): Triple => [-a[0], -a[1], -a[2]];
 export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a: Vec, b: Vec): Triple => [

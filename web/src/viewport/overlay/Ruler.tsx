@@ -13,7 +13,7 @@ import {
   type RulerPoint,
   useRuler,
 } from "../../store/ruler";
-import type { Triple } from "../../store/vectors";
+import { ORIGIN, plus, type Triple } from "../../store/vectors";
 import { useScenes } from "../../store/scenes";
 import { setTool, setUnit, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
@@ -91,9 +91,7 @@ function pixelOf(stage: Stage, hull: string, at: Triple): { x: number; y: number
   const pane = stage.panes().at(-1);
   if (!pane || !stage.shown) return null;
   const { hulls } = stage.shown;
-  const away = hulls.aways[hulls.places.get(hull) ?? -1] ?? [0, 0, 0];
-  const { explode } = stage.settings;
-  return stage.pixelOf([at[0] + explode * away[0], at[1] + explode * away[1], at[2] + explode * away[2]], pane);
+  return stage.pixelOf(plus(at, hulls.aways[hulls.places.get(hull) ?? -1] ?? ORIGIN, stage.settings.explode), pane);
 }
 
 const LABEL = { wide: 276, high: 44 }; // px, with room between two

@@ -4,7 +4,7 @@ import { type PointerEvent, useRef } from "react";
 import { Vector3 } from "three";
 import { useScenes } from "../../store/scenes";
 import { type SectionAxis, sectionAlong, sectionFacing, setSection, useSection } from "../../store/section";
-import { ACROSS, plus, type Vec } from "../../store/vectors";
+import { ACROSS, midpoint, plus, type Vec } from "../../store/vectors";
 import { IconButton } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
 import { axesOf } from "../camera/pose";
@@ -95,5 +95,3 @@ function lineOf(stage: Stage): { x: number; y: number; dx: number; dy: number } 
   // seen from straight ahead the way is a point: there up is nearer
   return Math.hypot(dx, dy) < 24 ? { ...spot, dx: 0, dy: -stage.height / 2 } : { ...spot, dx, dy };
 }
-
-const midpoint = (a: Vec, b: Vec): Vec => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2];

@@ -9,6 +9,7 @@ import { useAlike } from "../../store/alike";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import type { Scene } from "../../store/scenes";
+import { midpoint } from "../../store/vectors";
 import { type Tool, useWorkspace } from "../../store/workspace";
 import { useRegion } from "./regionStore";
 
@@ -69,5 +70,3 @@ function pairsOf(scene: Scene): { a: string; b: string; gap: number | null }[] {
   const near = scene.view.near_misses.filter(({ a, b }) => !made.has(a) && !made.has(b));
   return [...scene.contacts.map(([a, b]) => ({ a, b, gap: null })), ...near];
 }
-
-const midpoint = (a: Point, b: Point): Point => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2];
