@@ -67,7 +67,7 @@ def _try_one_by_one(task: GoalTask, job: AssetJob, execution: ExecutionOptions) 
     single = [replace(task, goals={name: text}) for name, text in task.goals.items()]
     bounded = replace(execution, progress=None, workers=1)
     found = AssetGoals(job.id, {}, {}, {})
-    for one, result in zip(single, execute(partial(_try_task, job), single, bounded), strict=True):
+    for one, result in zip(single, execute(partial(_try_asset, job=job), single, bounded), strict=True):
         ((name, text),) = one.goals.items()
         if isinstance(result, WorkerFailure):
             broken = {name: GoalResult(text, "broken", result.why)}
@@ -81,10 +81,6 @@ def _try_one_by_one(task: GoalTask, job: AssetJob, execution: ExecutionOptions) 
             {**found.pictures, **result.pictures},
         )
     return found
-
-
-def _try_task(job: AssetJob, task: GoalTask) -> AssetGoals:
-    return _try_asset(task, job)
 
 
 def _try_asset(task: GoalTask, job: AssetJob) -> AssetGoals:

@@ -11,7 +11,7 @@ import typer
 from meshforge.cli.console import print_table
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, join_names, pluralize
-from meshforge.labels import LabelChange, Labeler, LabelOutcome, LabelResult, Proposal, Proposals, Tally
+from meshforge.labels import Labeler, LabelOutcome, LabelResult, Proposal, Proposals, Tally
 from meshforge.project import SOURCE_WORDS, Project
 
 _MAX_NAMES = 8  # hulls without a label in a row
@@ -140,10 +140,6 @@ def _print_replaced(result: LabelResult) -> None:
     else:
         typer.echo("Every hull keeps its label.")
     for one in replaced[:_MAX_LINES]:
-        typer.echo(_describe_change(one))
+        typer.echo(f"    {one.was} -> {one.label}: {pluralize(one.hulls, 'hull')} in {pluralize(one.assets, 'asset')}")
     if len(replaced) > _MAX_LINES:
         typer.echo(f"    and {len(replaced) - _MAX_LINES} more pairs of labels")
-
-
-def _describe_change(one: LabelChange) -> str:
-    return f"    {one.was} -> {one.label}: {pluralize(one.hulls, 'hull')} in {pluralize(one.assets, 'asset')}"

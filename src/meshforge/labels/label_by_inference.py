@@ -134,11 +134,8 @@ def _infer(
     alone = f"{next(iter(known))} is the only label, and nothing follows from one alone: label a hull that is another"
     notes = () if len(known) > 1 else (alone,)
     assets = _share_labels(family, compared, labels, reasons)
-    return LabelProposal(assets, compared.next, _find_alike(compared), notes=notes)
-
-
-def _find_alike(compared: FamilyComparison) -> tuple[tuple[str, str], ...]:
-    return tuple(pair for pair in compared.found.find_alike_labels() if NO_PART not in pair)
+    alike = tuple(pair for pair in compared.found.find_alike_labels() if NO_PART not in pair)
+    return LabelProposal(assets, compared.next, alike, notes=notes)
 
 
 def _share_labels(

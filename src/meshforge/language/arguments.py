@@ -31,9 +31,10 @@ class ArgumentType(ABC):
     choices: tuple[str, ...] = ()
     symbol: ClassVar[str] = "_value"
 
-    @abstractmethod
     def read(self, kind: TokenKind, text: str) -> Any | None:
-        """Return the value of a piece of program text (without quotes), None where it does not fit."""
+        """Return the value of a piece of program text (without quotes); None where it does not fit, or the parser
+        reads it itself, as what has arguments of its own."""
+        return None
 
     @abstractmethod
     def fits(self, value: Any) -> bool:
@@ -187,9 +188,6 @@ class LabelArgument(ArgumentType):
     symbol = "label"
     usage = "label"
     wants = "a label"
-
-    def read(self, kind: TokenKind, text: str) -> None:
-        return None
 
     def fits(self, value: Any) -> bool:
         return isinstance(value, str) and bool(value)

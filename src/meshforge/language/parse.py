@@ -339,7 +339,8 @@ def _build_argument(
 
 
 def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: Node | Token) -> Any | None:
-    if isinstance(_value_of(argument), ExtractorArgument) and not isinstance(given, str) and given.data != "option":
+    value = argument.value if isinstance(argument, arguments.OptionArgument) else argument
+    if isinstance(value, ExtractorArgument) and not isinstance(given, str) and given.data != "option":
         return build_extractor(text, given)
     token = _bare_token(given)
     if token is None or token.type not in _TOKEN_KINDS:
@@ -348,10 +349,6 @@ def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: No
         return argument.read("quantity", str(token))
     kind = "number" if token.type == "QUANTITY" else _TOKEN_KINDS[token.type]
     return argument.read(kind, text.unquote(token) if token.type == "STRING" else str(token).rstrip())
-
-
-def _value_of(argument: arguments.ArgumentType) -> arguments.ArgumentType:
-    return argument.value if isinstance(argument, arguments.OptionArgument) else argument
 
 
 def _bare_token(given: Node | Token) -> Token | None:

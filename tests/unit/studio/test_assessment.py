@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
@@ -19,14 +17,8 @@ from meshforge.signoff import (
 from meshforge.signoff.question import QuestionKind
 from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.learning.results import view_assessment
-from tests.studio_project import demo_project
 
 ONE, OTHER = "table_01.obj", "table_02.obj"
-
-
-@pytest.fixture(scope="module")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    return demo_project(tmp_path_factory.mktemp("tables"))
 
 
 def assessment_of(*questions: ReviewQuestion) -> Assessment:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -20,13 +19,6 @@ from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
 from meshforge.synthesis import Step
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied
-
-
-@pytest.fixture
-def flag() -> Iterator[CancelFlag]:
-    made = CancelFlag()
-    yield made
-    made.close()
 
 
 def learn(project: Project, flag: CancelFlag, number: int = 1) -> None:

@@ -27,23 +27,10 @@ OTHER = "table_02.obj"
 
 
 @pytest.fixture(scope="module")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    return demo_project(tmp_path_factory.mktemp("tables"))
-
-
-@pytest.fixture(scope="module")
 def learner(project: Project) -> Iterator[LearningProcess]:
     made = LearningProcess(project.folder)
     yield made
     made.close()
-
-
-@pytest.fixture
-def flag() -> Iterator[CancelFlag]:
-    made = CancelFlag()
-    yield made
-    made.close()
-    assert not made.path.exists()
 
 
 @pytest.fixture

@@ -30,11 +30,6 @@ from tests.unit.studio.packets import read_packet
 TABLE = "table_03.obj"
 
 
-@pytest.fixture(scope="module")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    return demo_project(tmp_path_factory.mktemp("tables"))
-
-
 def of_shapes(
     *shapes: Shape, opaque: tuple[NonConvexPiece, ...] = (), visuals: tuple[Surface, ...] = ()
 ) -> SymbolicMesh:

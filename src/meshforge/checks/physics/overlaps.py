@@ -122,14 +122,13 @@ def _measure_share(mesh: SymbolicMesh, overlap: BodyOverlap) -> float:
         key=lambda hulls: sum(hull.volume for hull in hulls),
     )
     shared = sum(
-        min(hull.volume, sum(geometry.overlap_volume(hull.shape, other.shape) for other in _near(hull, large)))
+        min(
+            hull.volume,
+            sum(geometry.overlap_volume(hull.shape, other.shape) for other in large if hull.aabb.touches(other.aabb)),
+        )
         for hull in small
     )
     return shared / sum(hull.volume for hull in small)
-
-
-def _near(hull: Hull, others: Sequence[Hull]) -> list[Hull]:
-    return [other for other in others if hull.aabb.touches(other.aabb)]
 
 
 def report_overlaps(overlaps: Sequence[BodyOverlap], scale: float) -> Iterator[Finding]:

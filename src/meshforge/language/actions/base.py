@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, get_args
 
 from meshforge.language.actions.edit import GroupEdit, HullGroup
-from meshforge.language.arguments import ArgumentType, MissingOperation, Operation, TokenKind
+from meshforge.language.arguments import ArgumentType, MissingOperation, Operation
 from meshforge.symbolic import SymbolicMesh, split_by_body
 
 Axis = Literal["all", "X", "Y", "Z"]
@@ -75,9 +75,6 @@ class ActionArgument(ArgumentType):
 
     usage = "action"
     wants = "an action"
-
-    def read(self, kind: TokenKind, text: str) -> None:
-        return None
 
     def fits(self, value: Any) -> bool:
         return isinstance(value, Action)

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal, TypeVar, assert_never
 import numpy as np
 
 from meshforge.common import ProgramError, blame
-from meshforge.language.arguments import ArgumentType, LabelArgument, MissingOperation, Operation, TokenKind
+from meshforge.language.arguments import ArgumentType, LabelArgument, MissingOperation, Operation
 from meshforge.language.hull_table import EXTREMITY, Bools, HullTable
 from meshforge.symbolic import SymbolicMesh, bits_of
 
@@ -142,9 +142,6 @@ class BaseArgument(ArgumentType):
     usage = "base"
     wants = "All or Is(label)"
 
-    def read(self, kind: TokenKind, text: str) -> None:
-        return None
-
     def fits(self, value: Any) -> bool:
         return isinstance(value, BaseExtractor)
 
@@ -160,9 +157,6 @@ class ExtractorArgument(ArgumentType):
     symbol = "_extractor"
     usage = "extractor"
     wants = "an extractor such as Is(label)"
-
-    def read(self, kind: TokenKind, text: str) -> None:
-        return None
 
     def fits(self, value: Any) -> bool:
         return isinstance(value, Extractor)
