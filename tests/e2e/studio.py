@@ -52,6 +52,17 @@ class Studio:
         steps = [{"select": s["select"], "action": {key: s["action"][key] for key in fields}} for s in view["steps"]]
         return {"asset": asset, "version": view["version"], "steps": steps}
 
+    def run_job(self, **request: Any) -> dict[str, Any]:
+        """Begin a job and wait for its end."""
+        with self.page() as page:
+            assert page.hello
+            return page.job(ok(self.post("/api/jobs", request))["id"])
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the project, when all is quiet."""
+        return Path(self.settled()["project"]["folder"])
+
     @contextmanager
     def page(self) -> Iterator[Page]:
         with connect(self.socket, subprotocols=protocols(self.token), max_size=None) as connection:

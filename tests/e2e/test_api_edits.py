@@ -37,8 +37,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
 
 def kept(studio: Studio) -> dict[str, bytes]:
     """The files of the project when all is quiet; what the studio remembers for itself, and backups, aside."""
-    root = Path(studio.settled()["project"]["folder"])
-    files = tree(root)
+    files = tree(studio.folder)
     return {name: data for name, data in files.items() if not name.startswith(".meshforge/") and "previous" not in name}
 
 
@@ -240,7 +239,7 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
 
 
 def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path: Path) -> None:
-    folder = Path(studio.settled()["project"]["folder"])
+    folder = studio.folder
     with studio.page() as page:
         assert page.hello
         project = Project.open(folder)

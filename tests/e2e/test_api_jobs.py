@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -27,24 +26,13 @@ def studio(tmp_path: Path) -> Iterator[Studio]:
         yield found
 
 
-def home(studio: Studio) -> Path:
-    return Path(studio.settled()["project"]["folder"])
-
-
-def run(studio: Studio, **request: Any) -> dict[str, Any]:
-    """Begin a job and wait for its end."""
-    with studio.page() as page:
-        assert page.hello
-        return page.job(ok(studio.post("/api/jobs", request))["id"])
-
-
 def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
-    job = run(studio, kind="apply", assets=[FIRST, THIRD])
+    job = studio.run_job(kind="apply", assets=[FIRST, THIRD])
     assert (job["state"], job["done"], job["total"]) == ("done", 2, 2)
     assert {line["status"] for line in job["lines"]} == {"edited"}
     cards = studio.cards(lambda cards: cards[FIRST]["output"] == cards[THIRD]["output"] == "edited")
     assert cards["table_02.obj"]["output"] == "none"
-    written = load(home(studio) / "edited" / FIRST)
+    written = load(studio.folder / "edited" / FIRST)
     words = [word["name"] for word in studio.settled()["project"]["vocabulary"]]
     assert [words[k] for k in cards[FIRST]["after_labels"]] == [hull.label for hull in written.hulls]
     assert cards["table_02.obj"]["after_labels"] == []
@@ -54,41 +42,41 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     studio.edit("review", ids=[FIRST], verdict="wrong")
     studio.edit("review", ids=[THIRD], verdict="accepted")
     studio.cards(lambda cards: cards[THIRD]["review"] == "accepted" and cards[FIRST]["review"] == "wrong")
-    job = run(studio, kind="export", folder="out/first")
+    job = studio.run_job(kind="export", folder="out/first")
     assert job["message"] == "1 asset exported, with meshforge-report.html."
-    exported = home(studio) / "out" / "first"
+    exported = studio.folder / "out" / "first"
     assert job["out"] == str(exported)
-    outputs = tree(home(studio) / "edited")
+    outputs = tree(studio.folder / "edited")
     own = {name: data for name, data in tree(exported).items() if not name.startswith(".")}
     report = own.pop("meshforge-report.html").decode()
     assert all(asset in report for asset in (FIRST, THIRD)), "those that are wrong, too"
     assert own and own == {name: outputs[name] for name in own}
     assert load(exported / THIRD).hulls
-    assert run(studio, kind="export", folder="out/first", signed_only=False)["message"].startswith("2 assets ")
+    assert studio.run_job(kind="export", folder="out/first", signed_only=False)["message"].startswith("2 assets ")
     assert (exported / FIRST).is_file()
-    assert run(studio, kind="export", folder="out/first")["message"].startswith("1 asset ")
+    assert studio.run_job(kind="export", folder="out/first")["message"].startswith("1 asset ")
     assert not (exported / FIRST).exists()
 
 
 def test_exports_go_where_they_may_and_harm_nobody(studio: Studio, tmp_path: Path) -> None:
-    run(studio, kind="apply", assets=[FIRST])
+    studio.run_job(kind="apply", assets=[FIRST])
     studio.cards(lambda cards: cards[FIRST]["output"] == "edited")
     given = tmp_path / "given"
     request = {"kind": "export", "signed_only": False}
     for folder in ("..", str(tmp_path / "elsewhere"), ".", "edited", "labels/x", ".meshforge/x", "../assets"):
         answer = studio.post("/api/jobs", request | {"folder": folder})
         assert answer.status_code == 400, folder
-    (home(studio) / "link").symlink_to(tmp_path / "assets")
+    (studio.folder / "link").symlink_to(tmp_path / "assets")
     assert studio.post("/api/jobs", request | {"folder": "link"}).status_code == 400
-    assert run(studio, **request, folder=str(given))["state"] == "done"
+    assert studio.run_job(**request, folder=str(given))["state"] == "done"
     assert load(given / FIRST).hulls
-    (home(studio) / "mine").mkdir()
-    (home(studio) / "mine" / "thesis.txt").write_text("do not lose me")
+    (studio.folder / "mine").mkdir()
+    (studio.folder / "mine" / "thesis.txt").write_text("do not lose me")
     refused = studio.post("/api/jobs", request | {"folder": "mine"})
     assert "holds something else" in refused.json()["message"]
     (given / "table_03.obj").write_text("mine")
-    run(studio, kind="apply", assets=[THIRD])
-    job = run(studio, **request, folder=str(given))
+    studio.run_job(kind="apply", assets=[THIRD])
+    job = studio.run_job(**request, folder=str(given))
     assert [line["status"] for line in job["lines"]] == ["failed", "done"] + ["skipped"] * (len(FEW) - 2)
     assert (given / "table_03.obj").read_text() == "mine"
 
@@ -103,20 +91,20 @@ def test_a_job_that_is_cancelled_stops_and_leaves_whole_outputs(studio: Studio) 
         if cancelled.status_code == 200:
             assert page.job(job)["state"] in ("cancelled", "done")
     assert studio.post("/api/jobs/cancel", {"id": job}).status_code == 404
-    names = {name for name in tree(home(studio) / "edited") if name.endswith(".obj")}
+    names = {name for name in tree(studio.folder / "edited") if name.endswith(".obj")}
     studio.cards(lambda cards: names == {asset for asset, card in cards.items() if card["output"] == "edited"})
-    assert all(load(home(studio) / "edited" / name).hulls for name in names)
-    assert run(studio, kind="apply")["state"] == "done"
+    assert all(load(studio.folder / "edited" / name).hulls for name in names)
+    assert studio.run_job(kind="apply")["state"] == "done"
 
 
 def test_what_is_sure_is_signed_off_once_written_and_undo_of_a_question_put_off_keeps_that(studio: Studio) -> None:
     hello = studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
     question = hello["assessment"]["question"]
-    project = Project.open(home(studio))
+    project = Project.open(studio.folder)
     waits = [one.id for one in project.status().assets if one.result_status.state == "sure"]
     assert waits and not project.sign_offs()
     studio.edit("reply", question=question, later=True)
-    assert run(studio, kind="apply")["state"] == "done"
+    assert studio.run_job(kind="apply")["state"] == "done"
     assert set(waits) <= set(project.sign_offs())
     ok(studio.post("/api/undo"))
     assert project.feedback().snoozed == () and set(waits) <= set(project.sign_offs())
@@ -130,16 +118,16 @@ def test_what_was_decomposed_is_undone_with_one_step(studio: Studio, tmp_path: P
     added = ok(studio.post("/api/assets"))["names"]
     assert added == ["added/room_a.obj", "added/room_b.obj"]
     studio.cards(lambda cards: [cards[name]["hulls"] for name in added] == [0, 0])
-    before = tree(home(studio) / "prepared")
-    job = run(studio, kind="decompose", assets=added, method="vhacd")
+    before = tree(studio.folder / "prepared")
+    job = studio.run_job(kind="decompose", assets=added, method="vhacd")
     assert job["state"] == "done", job
     assert {line["status"] for line in job["lines"]} == {"done"}
     studio.cards(lambda cards: all(cards[name]["hulls"] and cards[name]["prepared"] for name in added))
     ok(studio.post("/api/undo"))
-    assert tree(home(studio) / "prepared") == before
+    assert tree(studio.folder / "prepared") == before
     ok(studio.post("/api/undo"))
     assert not [card for card in studio.settled()["cards"] if card["asset"].startswith("added/")]
-    assert not (home(studio) / "added" / "room_b.obj").exists()
+    assert not (studio.folder / "added" / "room_b.obj").exists()
     ok(studio.post("/api/redo"))
-    assert (home(studio) / "added" / "room_b.obj").read_text() == ROOM
+    assert (studio.folder / "added" / "room_b.obj").read_text() == ROOM
     assert not (tmp_path / "assets" / "added").exists()

@@ -38,12 +38,8 @@ def studio(running: Studio) -> Iterator[Studio]:
     running.undo_all()
 
 
-def folder(studio: Studio) -> Path:
-    return Path(studio.settled()["project"]["folder"])
-
-
 def labels(studio: Studio) -> dict[str, bytes]:
-    return tree(folder(studio) / "labels")
+    return tree(studio.folder / "labels")
 
 
 def kept(project: Project) -> dict[str, bytes]:
@@ -88,7 +84,7 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
             studio.edit("label", hulls={SECOND: [name]}, label="fourth")
         assert page.job(job)["state"] == "done"
     said = dict.fromkeys(HULLS, Label("fourth"))
-    project = Project.open(folder(studio))
+    project = Project.open(studio.folder)
     assert dict(project.labels(SECOND).labels) == said
     assert _given(studio, SECOND) == len(HULLS)
     after = 0  # labels that came when all was carried over already

@@ -12,7 +12,7 @@ from playwright.sync_api import Browser
 
 from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
-from tests.e2e.studio import Studio, ok, opened
+from tests.e2e.studio import ok, opened
 from tests.e2e.walk import go_to, visiting
 from tests.studio_project import demo_project
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
@@ -24,12 +24,6 @@ TABLE = "table_01.obj"
 def _goal(card: dict[str, Any]) -> dict[str, Any]:
     (found,) = card["goals"]
     return dict(found)
-
-
-def _run(studio: Studio, **request: Any) -> dict[str, Any]:
-    with studio.page() as page:
-        assert page.hello
-        return page.job(ok(studio.post("/api/jobs", request))["id"])
 
 
 def _kept(project: Project) -> dict[str, str]:
@@ -86,7 +80,7 @@ def test_what_fails_has_a_picture_and_stays_open_until_it_is_accepted(tmp_path: 
     project = applied(tmp_path)
     with opened(tmp_path, project.folder) as studio:
         studio.settled()
-        job = _run(studio, kind="check", goal=FAILS)
+        job = studio.run_job(kind="check", goal=FAILS)
         assert job["message"] == "graspable holds on 0 of 3 assets, 0 before the edit."
         assert [(line["asset"], line["status"]) for line in job["lines"]] == [
             (one, "failed") for one in (FIRST, SECOND, THIRD)
@@ -103,10 +97,10 @@ def test_what_fails_has_a_picture_and_stays_open_until_it_is_accepted(tmp_path: 
         assert not _goal(cards[FIRST])["accepted"]
         studio.edit("review", ids=[FIRST], verdict="accepted", goals=[FAILS])
         studio.cards(lambda cards: _goal(cards[FIRST])["accepted"])
-        assert _run(studio, kind="apply")["message"].endswith("Goals fail on 3 results.")
+        assert studio.run_job(kind="apply")["message"].endswith("Goals fail on 3 results.")
         studio.edit("goal", name="grip", text=KEPT, was="grip")
         studio.cards(lambda cards: all(_goal(card)["outcome"] is None for card in cards.values()))
-        _run(studio, kind="apply")
+        studio.run_job(kind="apply")
         studio.cards(lambda cards: all(_goal(card)["outcome"] == "passed" for card in cards.values()))
 
 

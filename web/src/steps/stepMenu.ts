@@ -12,7 +12,7 @@ export function stepMenu(view: AssetView, place: number, rules: number): (MenuLi
   const { asset } = view;
   const select = view.steps[place]?.select;
   return [
-    { label: "Change…", keys: "Enter", onSelect: () => runInTurn(() => draftStep(place)) },
+    { label: "Change…", keys: "Enter", leaves: true, onSelect: () => runInTurn(() => draftStep(place)) },
     { label: "Nothing here", disabled: select?.length === 0, onSelect: () => void setStepHere(asset, place, []) },
     { label: "Leave open", disabled: select == null, onSelect: () => void setStepHere(asset, place, null) },
     "line",

@@ -20,10 +20,7 @@ export function useSelectedPositions(asset: string): readonly number[] | undefin
 
 function shownNames(asset: string, open: string | null, sheet: readonly string[], selection: ReadonlySet<string>): string[] {
   if (!sheet.length) return asset === open ? [...selection] : [];
-  return [...selection].flatMap((name) => {
-    const place = placeOf(name);
-    return place?.asset === asset ? [place.hull] : [];
-  });
+  return byAsset([...selection].flatMap((name) => placeOf(name) ?? [])).get(asset) ?? [];
 }
 
 /** How many hulls are selected on each asset that has some. */

@@ -1,7 +1,7 @@
 // A menu that opens from a button.
 import { Check } from "lucide-react";
 import { DropdownMenu } from "radix-ui";
-import type { ReactNode } from "react";
+import { type ReactNode, useRef } from "react";
 import css from "./ui.module.css";
 
 export interface MenuLine {
@@ -10,6 +10,8 @@ export interface MenuLine {
   disabled?: boolean;
   /** Whether it is what is chosen, where it is a choice. */
   on?: boolean;
+  /** Whether keys are for what it begins from then on, and no more for the button of the menu. */
+  leaves?: boolean;
   onSelect: () => void;
 }
 
@@ -20,18 +22,23 @@ export function choiceLines<T extends string>(names: Readonly<Record<T, ReactNod
 
 /** Not modal, as that hides controls from screen readers that still can take the focus; a shade takes clicks beside it. */
 export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (MenuLine | "line")[] }) {
+  const leaves = useRef(false);
+  const choose = (line: MenuLine) => {
+    leaves.current = line.leaves ?? false;
+    line.onSelect();
+  };
   return (
-    <DropdownMenu.Root modal={false}>
+    <DropdownMenu.Root modal={false} onOpenChange={(open) => open && (leaves.current = false)}>
       <DropdownMenu.Trigger asChild>{trigger}</DropdownMenu.Trigger>
       <DropdownMenu.Portal>
         <section aria-label="Menu">
           <div className={css.menuShade} aria-hidden />
-          <DropdownMenu.Content className={css.menu} sideOffset={4} align="end">
+          <DropdownMenu.Content className={css.menu} sideOffset={4} align="end" onCloseAutoFocus={(event) => leaves.current && event.preventDefault()}>
             {lines.map((line, k) =>
               line === "line" ? (
                 <DropdownMenu.Separator key={k} className={css.menuLine} />
               ) : (
-                <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={line.onSelect}>
+                <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={() => choose(line)}>
                   <span className={css.menuLabel} aria-current={line.on}>
                     {line.on !== undefined && <Check size={13} aria-hidden style={{ visibility: line.on ? "visible" : "hidden" }} />}
                     {line.label}

@@ -89,7 +89,7 @@ export class ContactGraph {
   }
 
   measure(frame: Frame): void {
-    for (const { strokes } of this.lines) strokes.measure({ ...frame, explode: 0 });
+    for (const { strokes } of this.lines) strokes.measure(frame);
     const { size } = this.dots.material.uniforms;
     if (size) size.value = 8 * frame.pixel;
   }

@@ -46,7 +46,7 @@ export class CutPlaneDrawing {
   }
 
   measure(frame: Frame): void {
-    this.lines.measure({ ...frame, explode: 0 });
+    this.lines.measure(frame);
   }
 
   dispose(): void {

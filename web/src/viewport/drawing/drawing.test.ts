@@ -1,5 +1,5 @@
 // Three.js objects of the picture: what they hold, without drawing them.
-import { BufferGeometry, Color, type InstancedBufferGeometry, LineSegments, Mesh, Vector3 } from "three";
+import { BufferGeometry, Color, type InstancedBufferGeometry, LineSegments, Mesh, type ShaderMaterial, Vector3 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { box, boxScene, stubBrowser } from "../stage/boxes.test-help";
 import { edgesOf } from "../geometry/edges";
@@ -133,6 +133,12 @@ describe("strokes", () => {
     expect(countOf(one)).toBe(6);
     one.measure({ ...FRAME, eye: { at: [0.5, 0.4, 9], parallel: false } });
     expect(countOf(one)).toBe(4);
+  });
+
+  it("that no section plane cuts share no program with those that it cuts, as that keeps the plane", () => {
+    const [cut, whole] = [true, false].map((is) => meshIn(new Strokes(ink.text, { width: 1, cut: is }).object).material as ShaderMaterial);
+    expect([cut?.clipping, cut?.defines, whole?.clipping, whole?.defines]).toEqual([true, { CUT: 1 }, false, {}]);
+    expect(whole?.fragmentShader.replaceAll(/\s+/g, " ")).toContain("#ifdef CUT clip(); #endif");
   });
 
   it("are as wide on the screen whatever the pixels", () => {

@@ -1,6 +1,7 @@
 // How a section plane shows: shaders leave out what is beyond it, hulls that it cuts are closed by hatched faces, and a
 // frame shows where it is. The plane that cuts a hull in two is drawn by `cutPlane.ts`.
 import { BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Plane, Vector3 } from "three";
+import type { Outline } from "../geometry/edges";
 import { axesIn, cutPolygon } from "../geometry/section";
 import type { Point } from "../geometry/triangles";
 import { type SectionPlane, spanOfBox } from "../../store/section";
@@ -71,8 +72,8 @@ export class SectionFaces {
 
   measure(frame: Frame): void {
     if (!this.object.visible) return;
-    this.contour.measure({ ...frame, explode: 0 });
-    this.selected.measure({ ...frame, explode: 0 });
+    this.contour.measure(frame);
+    this.selected.measure(frame);
   }
 
   dispose(): void {
@@ -115,33 +116,8 @@ function fans(polygons: readonly (readonly Point[])[], normal: Point): BufferGeo
   return out;
 }
 
-/** The frame of the plane, in the canonical frame. */
-export class SectionFrame {
-  readonly object = new Group();
-  private readonly lines: Strokes;
-
-  constructor(ink: ThemeColors) {
-    this.lines = new Strokes(ink.accent, { width: 1.5, behind: 0.35 }, 7);
-    this.object.add(this.lines.object);
-  }
-
-  /** box: of all that is shown. */
-  set(plane: SectionPlane | null, box: readonly number[]): void {
-    this.lines.set(plane ? linesBetween(sidesOf(frameCorners(plane, box))) : []);
-  }
-
-  setInk(ink: ThemeColors): void {
-    this.lines.recolor(ink.accent);
-  }
-
-  measure(frame: Frame): void {
-    this.lines.measure({ ...frame, explode: 0 });
-  }
-
-  dispose(): void {
-    this.lines.dispose();
-  }
-}
+/** The frame of the plane around all that is shown, given by its box; none without a plane. */
+export const frameOf = (plane: SectionPlane | null, box: readonly number[]): Outline[] => (plane ? linesBetween(sidesOf(frameCorners(plane, box))) : []);
 
 const MARGIN = 0.06;
 

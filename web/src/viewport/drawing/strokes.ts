@@ -200,7 +200,9 @@ const FRAGMENT = /* glsl */ `
   uniform float dash;
   ${SECTION_FRAGMENT}
   void main() {
-    clip();
+    #ifdef CUT
+      clip();
+    #endif
     float spot = upright > 0.5 ? gl_FragCoord.y : gl_FragCoord.x;
     if (dash > 0.0 && fract(spot / (1.65 * dash)) > 0.6) discard;
     gl_FragColor = vec4(color, opacity);
@@ -222,6 +224,8 @@ function strokeMaterial(
     transparent: true,
     depthWrite: false,
     clipping,
+    // a program of its own: three.js leaves the plane that it set for others in one that is shared
+    ...(clipping ? { defines: { CUT: 1 } } : {}),
     depthTest: where !== "over",
     depthFunc: where === "behind" ? GreaterDepth : LessEqualDepth,
     side: DoubleSide,

@@ -10,7 +10,7 @@ import type { Point } from "../geometry/triangles";
 import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
 import type { Pane } from "../stage/panes";
 import type { Stage } from "../stage/stage";
-import { ORIGIN, plus } from "../../store/vectors";
+import { ORIGIN, plus, type Triple } from "../../store/vectors";
 import { selectMore, setTool, useWorkspace } from "../../store/workspace";
 import type { Drag } from "./gestures";
 import { noteDrag } from "./heldKeys";
@@ -96,24 +96,18 @@ function boxCorners({ shapes, aways }: AssetDrawing["hulls"], k: number, explode
 
 /** Where the corners of each hull's box are seen. */
 function vertexSpots(stage: Stage, { hulls }: AssetDrawing, pane: Pane): Spot[][] {
-  return hulls.names.map((_, k) =>
-    boxCorners(hulls, k, stage.settings.explode).map((corner): Spot => {
-      const { x, y } = stage.pixelOf(corner, pane);
-      return [x, y];
-    }),
-  );
+  return hulls.names.map((_, k) => boxCorners(hulls, k, stage.settings.explode).map((corner) => spotOf(stage, corner, pane)));
+}
+
+function spotOf(stage: Stage, point: Point, pane: Pane): Spot {
+  const { x, y } = stage.pixelOf(point, pane);
+  return [x, y];
 }
 
 /** The outline of each hull in the picture. */
 function outlinesOf(stage: Stage, { hulls, scene }: AssetDrawing, pane: Pane): Spot[][] {
   return scene.hulls.map(({ shape: { positions } }, k) => {
-    const away = hulls.aways[k] ?? [0, 0, 0];
-    const at = (vertex: number, axis: number) =>
-      (positions[3 * vertex + axis] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
-    const spots = Array.from({ length: positions.length / 3 }, (_, v): Spot => {
-      const { x, y } = stage.pixelOf([at(v, 0), at(v, 1), at(v, 2)], pane);
-      return [x, y];
-    });
-    return outlineOf(spots);
+    const corners = Array.from({ length: positions.length / 3 }, (_, v) => [...positions.subarray(3 * v, 3 * v + 3)] as Triple);
+    return outlineOf(corners.map((corner) => spotOf(stage, plus(corner, hulls.aways[k] ?? ORIGIN, stage.settings.explode), pane)));
   });
 }

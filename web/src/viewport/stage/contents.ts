@@ -5,7 +5,7 @@ import { CutPlaneDrawing } from "../drawing/cutPlane";
 import { Ground } from "../drawing/ground";
 import type { Appearance } from "../drawing/hullLooks";
 import { PreviewHulls } from "../drawing/previewHulls";
-import { SectionFrame } from "../drawing/section";
+import { Strokes } from "../drawing/strokes";
 import { Surfaces } from "../drawing/surface";
 import { readThemeColors, type ThemeColors } from "../drawing/themeColors";
 import { type Point, rotateBox } from "../geometry/triangles";
@@ -20,7 +20,8 @@ export class Contents {
   readonly ground = new Ground();
   readonly graph = new ContactGraph(this.ink);
   readonly cut = new CutPlaneDrawing(this.ink);
-  readonly section = new SectionFrame(this.ink);
+  /** The frame of the section plane, in the canonical frame. */
+  readonly section = new Strokes(this.ink.accent, { width: 1.5, behind: 0.35 }, 7);
   shown: AssetDrawing | null = null;
   before: AssetDrawing | null = null;
   made: PreviewHulls | null = null;
@@ -82,7 +83,7 @@ export class Contents {
     this.before?.setInk(ink);
     this.graph.setInk(ink);
     this.cut.setInk(ink);
-    this.section.setInk(ink);
+    this.section.recolor(ink.accent);
     this.ghost?.recolor(ink.text);
     this.ground.fit(this.bounds, ink, this.shown?.scene.view.y_up);
   }

@@ -3,7 +3,7 @@ import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLR
 import { freeRoom, type Rect, type Room, shapeOf, wholeRoom } from "../camera/fit";
 import { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf } from "../drawing/assetDrawing";
-import { clippingPlane } from "../drawing/section";
+import { clippingPlane, frameOf } from "../drawing/section";
 import type { Gap } from "../drawing/contactGraph";
 import type { Eye } from "../geometry/edges";
 import type { Point } from "../geometry/triangles";
@@ -110,7 +110,7 @@ export class Stage {
   /** Cuts the picture open; null closes it. */
   cutOpen(section: SectionPlane | null): void {
     this.section = section;
-    this.change((contents) => contents.section.set(section, this.extent));
+    this.change((contents) => contents.section.set(frameOf(section, this.extent)));
   }
 
   resize(width: number, height: number, pixel: number): void {
