@@ -1,7 +1,5 @@
 """What holds of every contact graph: it is that of brute force, in any frame, and edits keep it true."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Laws of holes: none that a peg of 5% of the diagonal enters is closed; what is only rounded or rough is a hull."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Laws of files that are named for an engine: they hold the hulls of the asset, and the engine finds each of them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Distances against an independent reference, for shapes of all kinds, apart, touching and overlapping."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import assume, given

@@ -1,7 +1,5 @@
 """Laws of simpler hulls around hulls."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Shapes around points, shapes that fill boxes, cuts and overlaps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What holds of every convex hull, of easy points and of hard ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -2,8 +2,6 @@
 primitive that lies along the axis is its own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 

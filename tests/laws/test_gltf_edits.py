@@ -1,7 +1,5 @@
 """Laws of editing glTF: whatever the scene and the edit, the hulls are those asked for, and all else is as it was."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path

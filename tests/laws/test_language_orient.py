@@ -1,7 +1,5 @@
 """Laws of orientation: the outcome does not depend on the frame that an asset comes in."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

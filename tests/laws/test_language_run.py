@@ -1,7 +1,5 @@
 """Laws of running programs: what comes out is sound, and what is not edited is untouched."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections import Counter

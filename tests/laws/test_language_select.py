@@ -1,7 +1,5 @@
 """Laws of the extractors: what they select is what the paper's set-builder definitions say."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

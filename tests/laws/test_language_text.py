@@ -1,7 +1,5 @@
 """Laws of the language's text: parsing and printing are inverse, and comments survive."""
 
-from __future__ import annotations
-
 import math
 import random
 

@@ -1,7 +1,5 @@
 """Laws of kinematic trees: from URDF to MJCF and back, hulls, joints and masses are what they were."""
 
-from __future__ import annotations
-
 import tempfile
 from dataclasses import replace
 from pathlib import Path

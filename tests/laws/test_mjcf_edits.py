@@ -1,7 +1,5 @@
 """Any edit of any small MJCF: MuJoCo finds the edited geoms as the edit says, and all else as it was, bit for bit."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

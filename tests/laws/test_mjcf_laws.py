@@ -1,7 +1,5 @@
 """Laws of reading MJCF: a model is the same in however many files it lies, and where MuJoCo has it."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Laws of convex pieces that are joined where a hull around them adds little, and of pieces drawn within a solid."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

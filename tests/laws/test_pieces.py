@@ -1,7 +1,5 @@
 """Laws of pieces: any heap of boxes on a grid is read as the boxes it was made of."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Laws of edits of plain mesh files: what is kept keeps its name and place, what is deleted is gone."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory

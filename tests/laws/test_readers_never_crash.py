@@ -1,7 +1,5 @@
 """Whatever happened to a file, its reader gives an asset of finite hulls, or one error of the family."""
 
-from __future__ import annotations
-
 import json
 import random
 import tempfile

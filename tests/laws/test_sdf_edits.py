@@ -1,7 +1,5 @@
 """Any edit of any small SDF: hulls read back as the edit says, and all bytes outside of collisions are as they were."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path

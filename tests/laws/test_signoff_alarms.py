@@ -1,7 +1,5 @@
 """Alarms depend on what edits did, not on the size of assets, how they are turned, or their order."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

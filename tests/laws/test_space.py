@@ -1,7 +1,5 @@
 """Laws of space in cells."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import example, given

@@ -1,7 +1,5 @@
 """The paper strategy finds the smallest, its bounds hold, and its repairs are the smallest there are."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 

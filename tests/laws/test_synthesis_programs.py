@@ -1,7 +1,5 @@
 """What is learned from demonstrations of a hidden program does what was shown, and is never larger."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

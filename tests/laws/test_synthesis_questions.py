@@ -1,7 +1,5 @@
 """Questions name what matters, and answers settle it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import pytest

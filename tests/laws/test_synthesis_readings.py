@@ -1,7 +1,5 @@
 """The readings are every way in which a consistent extractor of so many nodes selects on the batch."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import pytest

@@ -1,7 +1,5 @@
 """Whatever is proposed explains what was shown, within the limits, and every correction of it is needed."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The search gives the answer of a search that tries everything, whatever it keeps and begins with."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

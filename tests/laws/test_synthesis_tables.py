@@ -1,7 +1,5 @@
 """Random extractors, demonstrated on two of the bundled tables: found, never larger, and among the readings."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from hypothesis import assume, given

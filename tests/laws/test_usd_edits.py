@@ -1,7 +1,5 @@
 """Laws of editing USD: whatever the stage and the edit, the hulls are those asked for, and all else is as it was."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path

@@ -3,8 +3,6 @@
 Costly work dies before its first rename, its second, fourth, eighth and so on, and before each in `script/test --long`.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import traceback

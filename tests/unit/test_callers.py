@@ -1,7 +1,5 @@
 """What only tests and benchmarks call is found, and nothing else."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Packages offer names that are imported when they are first used, so that a command imports only what it needs."""
 
-from __future__ import annotations
-
 import ast
 import compileall
 import os

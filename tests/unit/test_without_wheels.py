@@ -1,7 +1,5 @@
 """What needs a library that has no wheel for some platform says so there."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

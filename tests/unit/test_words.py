@@ -1,7 +1,5 @@
 """Words of the source: one word for one thing, in the field's own terms; `docs/glossary.md` has them."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

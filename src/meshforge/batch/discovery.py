@@ -1,7 +1,5 @@
 """Which assets a list of files, folders and globs means, and the id of each."""
 
-from __future__ import annotations
-
 import glob
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -54,7 +52,7 @@ class AssetSet:
         some = frozenset(only)
         return {key: path for key, path in self.ids.items() if key in some}
 
-    def without(self, away: Collection[str]) -> AssetSet:
+    def without(self, away: Collection[str]) -> "AssetSet":
         """Return these but for those of some ids."""
         gone = frozenset(self.ids.keys() & away)
         if not gone:
@@ -67,7 +65,7 @@ class AssetSet:
         return found
 
     @cached_property
-    def _rest(self) -> dict[frozenset[str], AssetSet]:
+    def _rest(self) -> "dict[frozenset[str], AssetSet]":
         return {}
 
     @cached_property

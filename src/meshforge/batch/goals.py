@@ -1,8 +1,6 @@
 """Goals tried on many assets, before and after their edit, in worker processes; what came of it is kept beside the
 outputs, by the digest of all that decides it, so that nothing is tried twice."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial

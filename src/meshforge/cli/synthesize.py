@@ -1,8 +1,6 @@
 """`meshforge synthesize`: learn the program of a project from its demonstrations; the result as text for stdout, and
 remarks on it for stderr."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -93,7 +91,7 @@ def synthesize(given: SynthesizeArguments) -> None:
     raise typer.Exit(int(outcome.program is None))
 
 
-def _print_outcome(outcome: synthesis.LearningOutcome, about: LearningContext) -> None:
+def _print_outcome(outcome: synthesis.LearningOutcome, about: "LearningContext") -> None:
     typer.echo(format_result(outcome, about))
     more = format_remarks(outcome, about)
     if more:

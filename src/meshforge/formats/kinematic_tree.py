@@ -1,7 +1,5 @@
 """The bodies of an asset as a tree, and as links and joints of a new URDF or SDF, each with its frame on its joint."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -41,7 +39,7 @@ class BodyTree:
     joints: Mapping[str, Sequence[Joint]]
 
     @staticmethod
-    def of(asset: Asset) -> BodyTree:
+    def of(asset: Asset) -> "BodyTree":
         """Return the tree of an asset's joints, their names made unique; each body that no joint leads to is a root."""
         joints: dict[str, list[Joint]] = {body.name: [] for body in asset.bodies}
         below: dict[str, list[str]] = {body.name: [] for body in asset.bodies}

@@ -4,8 +4,6 @@ Files disagree on what holds a piece together: groups, shared indices, shared pl
 component is read as whole or as its finer parts, whichever accounts for more of it by valid hulls.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from hashlib import blake2b
 from itertools import pairwise, takewhile
@@ -91,7 +89,7 @@ def _size_of(pieces: list[Piece]) -> int:
 _cache = PieceCache()
 
 
-def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) -> Piece:
+def _make_piece(vertices: Floats, faces: Ints, part: "PieceFaces", group: Ints) -> Piece:
     used, local = connectivity.compact(faces[part.faces])
     arrays = (vertices[used], local, part.faces)
     for array in arrays:
@@ -131,7 +129,7 @@ class IndexComponents:
     closed: Bools
 
     @staticmethod
-    def of(corners: Ints) -> IndexComponents:
+    def of(corners: Ints) -> "IndexComponents":
         component = connectivity.components_by_vertices(corners)
         return IndexComponents(component, np.isin(component, connectivity.find_closed_components(corners, component)))
 

@@ -1,8 +1,6 @@
 """The probability that a hull holds more than one part: from fine pieces of the surface that hulls stand for, and the
 regions and solids that these are of."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -50,7 +48,7 @@ class SpanModel:
 
     def infer(
         self, labels: Sequence[Label | None], piece_labels: Sequence[Label | None] | None = None
-    ) -> SpanPosterior:
+    ) -> "SpanPosterior":
         """Return what labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all
         pieces in order, where they are known."""
         rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])

@@ -1,7 +1,5 @@
 """By what the hulls of a family were labelled, kept for its new assets: files, names and plug-ins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -88,7 +86,7 @@ class FamilyLabelSources:
     lines: tuple[LabelSourceLine, ...]
 
     @staticmethod
-    def of(store: Store) -> FamilyLabelSources:
+    def of(store: Store) -> "FamilyLabelSources":
         """Return what labelled a project, and is in its labels still; files beside new assets count in any case."""
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {"file": LabelSourceLine(source="file")} | {one.source: one for one in kept.lines}

@@ -1,8 +1,6 @@
 """The labelled assets of a project, against which assets are looked at that are not of it, or new in it: one at a time,
 so that what is found of one does not depend on the others, nor on how many there are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
@@ -47,7 +45,7 @@ class ReferenceFamily:
         labels = [evidence_beside_rebuilt(hull.annotation) for one in assets for hull in one.mesh.hulls]
         return SpanReport(mesh, SpanModel(assets).infer(labels), own)
 
-    def without(self, asset: str) -> ReferenceFamily:
+    def without(self, asset: str) -> "ReferenceFamily":
         """Return the family without one of its assets, to which that is to be compared."""
         if asset not in self.meshes:
             return self

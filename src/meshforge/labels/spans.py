@@ -1,7 +1,5 @@
 """Which hulls of an asset span parts, by the surface that they stand for and the labels that are known."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -50,7 +48,7 @@ class SpanReport:
 
     mesh: SymbolicMesh
     posterior: SpanPosterior | None
-    pieces: FinePieces
+    pieces: "FinePieces"
 
     @cached_property
     def spans(self) -> tuple[HullSpan, ...]:
@@ -120,7 +118,7 @@ class FinePieces:
     notes: tuple[str, ...] = ()
 
     @staticmethod
-    def of(found: SurfacePieces, mesh: SymbolicMesh, notes: Iterable[str] = ()) -> FinePieces:
+    def of(found: SurfacePieces, mesh: SymbolicMesh, notes: Iterable[str] = ()) -> "FinePieces":
         """Return those found by body, of all bodies that have a surface; one of quite another size than its hulls says
         nothing of them, and does not count."""
         remarks, kept = list(notes), dict(found)

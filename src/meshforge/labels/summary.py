@@ -1,8 +1,6 @@
 """How far a project is labelled, counted by source and confidence, and planned in words; and the command that labels by
 hand, for messages that propose it."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -42,7 +40,7 @@ class Tally:
     shares: tuple[SourceTally, ...]
     doubtful: tuple[tuple[str, int], ...]
     unreadable: tuple[tuple[str, str], ...] = ()
-    contradictions: tuple[NameContradiction, ...] = ()
+    contradictions: "tuple[NameContradiction, ...]" = ()
 
     def describe_contradictions(self) -> str:
         """Return how many labels contradict a name, with the first three; nothing where none does."""

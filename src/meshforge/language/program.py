@@ -1,7 +1,5 @@
 """Programs: a vocabulary, an orientation and rules; parsed, printed, run, a label renamed in them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -88,7 +86,7 @@ class Program:
         return tuple(dict.fromkeys(name for rule in self.rules for name in rule.action.templates))
 
     @staticmethod
-    def parse(text: str, name: str = "program") -> Program:
+    def parse(text: str, name: str = "program") -> "Program":
         """Return the program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
         source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
         try:
@@ -97,7 +95,7 @@ class Program:
             raise ProgramError("its extractors are nested too deep", where=name) from None
 
     @staticmethod
-    def read(path: Path | str) -> Program:
+    def read(path: Path | str) -> "Program":
         """Return the program in a file. Raises ProgramError where it cannot be read or does not parse."""
         path = Path(path)
         try:

@@ -1,8 +1,6 @@
 """Bodies rebuilt of which a hull spans parts: found asset by asset, each in a worker process and compared with the
 labelled assets of the project alone, so that what is found of one does not depend on the others."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass, replace
@@ -93,7 +91,7 @@ def rebuild_spanning(
 class _SearchResult:
     """What was found of an asset. seen: the digest of the preparation that it had."""
 
-    rebuild: Rebuild
+    rebuild: "Rebuild"
     notes: tuple[str, ...]
     seen: str | None
 

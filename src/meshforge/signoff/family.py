@@ -1,7 +1,5 @@
 """A family under a program: what speaks for each edit, and against it."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -56,7 +54,7 @@ class FamilyRun:
         candidates: Sequence[CandidateProgram],
         posterior: FamilyPosterior,
         alarms: Mapping[str, Sequence[str]],
-    ) -> FamilyRun:
+    ) -> "FamilyRun":
         """Try a program on a family; what people said of results speaks for labels, too."""
         runs = [run_on_asset(name, mesh, program, state.templates) for name, mesh in state.meshes.items()]
         compared, mistakes = compare_candidates(program, candidates, runs), tuple(find_mistakes(state, program, runs))
@@ -81,7 +79,7 @@ class FamilyRun:
                 found[k] = found[k].discount(one.kinds[:, place] == 0, min(others, _MOST_EXPECTED))
         return tuple(found)
 
-    def _with_alternatives(self, posterior: FamilyPosterior) -> FamilyRun:
+    def _with_alternatives(self, posterior: FamilyPosterior) -> "FamilyRun":
         """The same with the probabilities of labels, and what other labels would change."""
         posterior, labels = posterior.discount_rebuilt(), posterior.seen.labels
         rows = enumerate(zip(self.runs, self.state.meshes.values(), strict=True))

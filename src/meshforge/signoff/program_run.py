@@ -1,8 +1,6 @@
 """A program tried on the assets of a family: what its rules select there, and what would change that: other labels of
 the hulls, and other readings of the rules, which a question tells apart for the fewest seconds."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -176,7 +174,7 @@ class RuleCandidates:
         found: Floats = self.beliefs @ (self.kinds == 0)
         return found
 
-    def discount(self, some: Bools, share: float) -> RuleCandidates:
+    def discount(self, some: Bools, share: float) -> "RuleCandidates":
         """Return the same where some readings (k,) are wrong with that probability besides."""
         beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
         return replace(self, beliefs=beliefs / beliefs.sum())

@@ -1,8 +1,6 @@
 """What a history keeps on disk: its entries, the one under way, and contents of files as they were, by digest, taken
 before a change and written back to undo it."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
@@ -31,7 +29,7 @@ class Snapshots:
     """Takes and restores the state of files; paths count from `folder`, and stay what they are outside of it."""
 
     folder: Path
-    blobs: BlobStore
+    blobs: "BlobStore"
 
     def take(self, paths: Iterable[Path]) -> FileState:
         """Return the state of files, and of all files in folders; their contents are stored."""

@@ -1,7 +1,5 @@
 """Checks outputs beside their assets, in worker processes; the results are cached by content."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
@@ -94,13 +92,13 @@ def _make_task(project: Project, asset: str) -> MeasureTask:
     return MeasureTask(project_of_one(project, asset), asset, key)
 
 
-def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> CheckResult:
+def _measure_part(task: MeasureTask, part: CheckPart, cache: "ResultCache") -> CheckResult:
     checked = measure(read_pair(task), part)
     cache.write(task.key, checked)
     return checked
 
 
-def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
+def _measure_all(work: "tuple[MeasureTask, ResultCache]") -> str | None:
     task, cache = work
     problem = None
     try:

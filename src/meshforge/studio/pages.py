@@ -1,7 +1,5 @@
 """The pages that are open, and the state that all of them show: every change is sent at once."""
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -29,7 +27,7 @@ class PageState:
 
     def __init__(
         self,
-        hub: PageHub,
+        hub: "PageHub",
         project: ProjectView,
         history: HistoryState,
         version: str,
@@ -82,7 +80,7 @@ class PageState:
         """What all pages show, but for cards and jobs."""
         return self._rest
 
-    def join(self, page: PageConnection) -> None:
+    def join(self, page: "PageConnection") -> None:
         """Show everything to a page, and from now on what changes."""
         with self._lock:
             self._hub.join(

@@ -1,7 +1,5 @@
 """Files that a page uploads: safe names, limited sizes, streamed to disk, and taken only if they can be read."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
@@ -62,7 +60,7 @@ class Uploads:
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
-    def keep_readable(self, workers: Workers) -> _Readable:
+    def keep_readable(self, workers: Workers) -> "_Readable":
         """Return the assets that can be read; files of others are removed. Raises ProjectError where there is none."""
         home, _ = self.list_files()
         sent = find_assets(workers, home)

@@ -1,7 +1,5 @@
 """What an asset has besides its hulls: the kinds of things, and those that any asset can be asked for."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -56,7 +54,7 @@ class Feature:
     reason: str = ""
 
     @staticmethod
-    def of(kind: FeatureKind, names: Iterable[str | None]) -> Feature:
+    def of(kind: FeatureKind, names: Iterable[str | None]) -> "Feature":
         """Return the feature of things, each name once; what has none is counted, and so is a name that comes again."""
         each = list(names)
         named = tuple(dict.fromkeys(name for name in each if name))

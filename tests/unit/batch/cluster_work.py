@@ -1,7 +1,5 @@
 """Work for the workers of a cluster; what they import for it takes no time."""
 
-from __future__ import annotations
-
 import os
 import signal
 import time

@@ -1,7 +1,5 @@
 """Small families of assets made by hand, for tests of batches and projects."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

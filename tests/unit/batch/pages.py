@@ -1,7 +1,5 @@
 """Pages of reports, read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The same run on a Ray cluster of several nodes, of which one dies in the midst."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from glob import glob
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """An engine that is installed is asked itself; what it refuses is never called legal."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """A batch that is killed or stopped leaves whole files, and the next run makes good."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """What one asset may take, what a run has before it, and what it came to."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

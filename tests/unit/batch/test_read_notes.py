@@ -1,7 +1,5 @@
 """What is said of how an asset was read, in the outcome of its edit: as far as it is still true of what was written."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The report: one page, whole, about every asset and rule, safe with any name."""
 
-from __future__ import annotations
-
 import base64
 import re
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Second opinions: simcheck and SimReady are run as they are installed."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """What tests of the benchmark share, to work it out once: a task with few meshes, pictures, work in this process."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from functools import cache

@@ -1,7 +1,5 @@
 """Asking a server on loopback as the benchmark asks a model: what answers by turn, and how it is set up."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path

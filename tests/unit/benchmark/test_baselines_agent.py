@@ -1,7 +1,5 @@
 """The VLM Agent against a real server on loopback: what it is told, what is fed back, and how it ends."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

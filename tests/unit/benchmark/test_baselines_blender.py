@@ -3,8 +3,6 @@
 Skipped where there is no Blender: see `benchmark.baselines.blender.apart.found`.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """RQ2 on loopback: the rows of the baselines are filled in, with cost; what was interrupted goes on."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from pathlib import Path

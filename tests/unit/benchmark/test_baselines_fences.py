@@ -1,7 +1,5 @@
 """Each fence around scripts by itself, in a plain Python: what it lets through, and what not."""
 
-from __future__ import annotations
-
 import os
 import socket
 import subprocess

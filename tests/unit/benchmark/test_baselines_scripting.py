@@ -1,7 +1,5 @@
 """VLM Blender on loopback, in real Blender: what is fed back, and how it ends. Skipped where there is no Blender."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 

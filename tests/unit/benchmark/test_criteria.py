@@ -1,8 +1,6 @@
 """What the criteria let through, and what they refuse, on small scenes made by hand; more scenes are those of
 goals, which try the same (tests/unit/checks/goals.toml)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

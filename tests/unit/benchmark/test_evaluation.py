@@ -1,7 +1,5 @@
 """The evaluation runs for one category and one seed; what was interrupted goes on, and the same comes out again."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Labellers on a few meshes: what they are scored by, and a model on loopback, which is asked five times."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from pathlib import Path

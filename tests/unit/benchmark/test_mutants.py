@@ -1,7 +1,5 @@
 """Programs that are nearly the reference, and that the criteria tell their edits from the reference's."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmark.evaluation import mutation

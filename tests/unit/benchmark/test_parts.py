@@ -1,7 +1,5 @@
 """What the criterion on parts lets through, and what it refuses, on a small table made by hand."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The seconds by which the tool orders its questions are those by which the benchmark counts a person's time."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmark.study import keystrokes

@@ -1,7 +1,5 @@
 """How many times as long a contestant took: who was stopped never flatters us, and like is compared with like."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmark.learning.contest import ALONE, CVC5, LIMIT, PAPER, PAPER_REPAIR, READINGS, REPAIR

@@ -1,7 +1,5 @@
 """Families of real assets: their labels and tasks are whole; and what a label file may not say."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """What sessions on real families come to: the worst family is named and stands last, and decides a goal."""
 
-from __future__ import annotations
-
 from benchmark.evaluation.real_sessions import find_goals, tell_families
 from benchmark.study import FLAT, TRUE, Round, Session
 

@@ -1,7 +1,5 @@
 """The files of results: read back, they are what was written; and what changed is a line of a diff."""
 
-from __future__ import annotations
-
 import json
 from types import ModuleType
 

@@ -1,7 +1,5 @@
 """Families that simulated people sign off: time only goes on, each act has its price, and what is right is counted."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, replace
 

@@ -1,7 +1,5 @@
 """The fit of probabilities and threshold: what it makes of sessions of known truth."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from benchmark.signoff.fit import choose_threshold, fit_weights, lose

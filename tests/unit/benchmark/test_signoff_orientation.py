@@ -1,7 +1,5 @@
 """Lessons with the orientation withheld: which tasks need one, what is shown, and what is counted."""
 
-from __future__ import annotations
-
 from benchmark.signoff.orientation import needs_orientation, teach_three_ways
 
 

@@ -1,7 +1,5 @@
 """Families signed off in a project on disk: what is written reads back, and each client of a person does the same."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, replace
 from pathlib import Path

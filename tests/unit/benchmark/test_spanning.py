@@ -3,8 +3,6 @@ through a project: none with their labels, few without, and merged legs are foun
 rebuilt where hulls span: which are, who labels first, what is compared. Real assets decomposed as a whole: their hulls,
 the surface that these stand for, and what is left out."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

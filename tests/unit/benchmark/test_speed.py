@@ -1,8 +1,6 @@
 """The speed benchmark runs, and the answers that it compares agree; no time is asserted. The learning benchmark runs,
 its draws are the same every time, and what it says is so; no time is asserted."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

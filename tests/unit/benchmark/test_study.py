@@ -1,7 +1,5 @@
 """Simulated demonstrators: the same seed does the same, what they say is true, noisy labels are as noisy as said."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

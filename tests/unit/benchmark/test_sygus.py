@@ -1,7 +1,5 @@
 """cvc5 finds extractors that select what was shown, and ends in time."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

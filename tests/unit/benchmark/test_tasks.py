@@ -1,7 +1,5 @@
 """The frozen assets and the tasks are what the design asks for."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

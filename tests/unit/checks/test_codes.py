@@ -1,7 +1,5 @@
 """Codes of findings: every rule has one, every code is of a rule that is found, and pages and `explain` show them."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The shapes that engines make are those that are read here, or an error says which are not, and why."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

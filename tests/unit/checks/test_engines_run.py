@@ -1,7 +1,5 @@
 """Numbers of `docs/engines.md` that are told as tried: the engines are run, as they are installed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import mujoco

@@ -1,7 +1,5 @@
 """Pairs of bodies that reach into each other are proposed, and those that a person confirms collide no more."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from tempfile import mkdtemp
 

@@ -1,7 +1,5 @@
 """What an MJCF says of contact holds in the check: excluded pairs, bits, pairs, friction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is wrong at rest and in motion: overlaps, blocked joints, bodies that come off, loose pieces."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`meshforge apply PROJECT ASSETS`, and assets that came to a project later: prepared first, as the project says."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`meshforge apply --report`: how sure each result of a project is, and nothing of it without a project."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

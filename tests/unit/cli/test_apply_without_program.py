@@ -1,7 +1,5 @@
 """What is prepared, written without a program: the command says so, and status, prepare and split propose it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

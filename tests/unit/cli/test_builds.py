@@ -1,7 +1,5 @@
 """Where builds are: SARIF, JUnit and a baseline, the GitHub Action and the pre-commit hooks."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

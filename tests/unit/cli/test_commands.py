@@ -1,7 +1,5 @@
 """The command line: every command, its exit codes, its JSON shapes, and errors without tracebacks."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

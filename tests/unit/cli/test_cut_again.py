@@ -1,7 +1,5 @@
 """A split that is asked for again, as after a kill, was done already."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """`meshforge demonstrate`: what stands left of an arrow is hulls by name, number or pattern, or an extractor."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

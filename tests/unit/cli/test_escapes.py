@@ -1,7 +1,5 @@
 """Names that would control a terminal are printed as text, on every road to it; JSON stays exact."""
 
-from __future__ import annotations
-
 import io
 import json
 import subprocess

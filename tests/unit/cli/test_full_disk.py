@@ -1,7 +1,5 @@
 """Commands on a disk that fills up: one message that names a file, and nothing of before is lost."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

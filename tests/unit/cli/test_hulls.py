@@ -1,7 +1,5 @@
 """Hulls as people type them: ranges of numbers and of names."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

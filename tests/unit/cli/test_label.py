@@ -1,7 +1,5 @@
 """`meshforge label`: each source of labels, and what it says."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`meshforge label PROJECT ASSET 'HULLS=LABEL'`: what it labels, what it refuses, and that the studio can undo it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

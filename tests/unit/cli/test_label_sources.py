@@ -1,7 +1,5 @@
 """`meshforge label` from names and files: shown before it is taken, with patterns, and each misuse told once."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`meshforge label --with vlm`: what is sent, said and paid, as a person reads it."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """`meshforge label --with propagate`: what it says, in words and as JSON."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`--max-vertices` where hulls are made: the engine is told, and what it makes keeps to the number."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What is missing on disk is an error in info, check and apply, with the file's name and a remedy."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

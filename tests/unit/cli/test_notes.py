@@ -1,7 +1,5 @@
 """The same note on many assets, or on many hulls of one, is printed once, with a count and the first names."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

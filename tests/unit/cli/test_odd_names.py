@@ -1,7 +1,5 @@
 """One file of a family has a name that is not UTF-8: it fails by name, all others go on."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """How tables are printed where nobody's terminal bounds them."""
 
-from __future__ import annotations
-
 import pytest
 
 from meshforge.cli import console

@@ -1,7 +1,5 @@
 """Preparing from the command line: what is printed, exit codes, JSON, and words that do not fit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """How far work is, said on stderr: lines in a pipe, one line at a terminal, also while the work is silent."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,8 +1,6 @@
 """`meshforge review`, `status --signed-off` and `apply --min-confidence`. Held assets are listed by reason: one line
 for all that are held for the same."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import cast

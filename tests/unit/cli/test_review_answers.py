@@ -1,7 +1,5 @@
 """Replies to a review's questions: typed, read from a file, and what they contradict."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`meshforge samples` at the command line: the list, a family in a folder, and what it refuses."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.samples import FAMILIES

@@ -1,7 +1,5 @@
 """One spelling for each thing on the command line: another one is an error that names it."""
 
-from __future__ import annotations
-
 from itertools import chain
 
 import pytest

@@ -1,8 +1,6 @@
 """`meshforge synthesize`: what is printed where, how it is stopped, and what `review` does of its answers. What
 learning results in as text: the assets to look at are one list."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """A real conversation at a pseudo-terminal."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

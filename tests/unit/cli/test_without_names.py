@@ -1,7 +1,5 @@
 """A project without names on the command line: what each command says that cannot go on, and what to do then."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What is said of a field that does not fit is in plain words, whatever pydantic calls it."""
 
-from __future__ import annotations
-
 import re
 from typing import Annotated, Literal, get_args
 

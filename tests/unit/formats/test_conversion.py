@@ -1,7 +1,5 @@
 """Every pair of formats: what is written in one and converted to another has the same hulls there."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 

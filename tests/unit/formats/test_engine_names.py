@@ -1,7 +1,5 @@
 """Files that are named for Unreal, Godot and Unity: what is seen, what collides, what is told, and edits of them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A folder of mesh files as one asset."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

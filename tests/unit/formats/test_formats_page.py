@@ -3,8 +3,6 @@
 `python -m tests.unit.formats.test_formats_page` writes the table anew.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Edits of glTF files in the conventions of Unreal, of Godot and of the physics extensions."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A geom that one hull alone takes the place of keeps its name in the file, in every format that has names."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import mujoco

@@ -1,7 +1,5 @@
 """Loading: one asset or many, with the labels beside them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

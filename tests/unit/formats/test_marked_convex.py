@@ -1,7 +1,5 @@
 """Meshes that a file calls convex and that are not: read as the hulls that engines make of them, and told so."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What files call their collision geometry besides its own names, and that nothing else depends on it."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Making an MJCF of an asset of another format, where MuJoCo is particular."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

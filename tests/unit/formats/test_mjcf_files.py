@@ -1,7 +1,5 @@
 """The files of an MJCF: includes, meshes and what else it refers to, encodings, fragments."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Edited MJCF where more than the geoms depends on them: files that become empty, folders, flexible bodies, numbers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Masses of an edited MJCF: bodies keep what MuJoCo compiled before, or have those of the edited hulls."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Made hulls in an MJCF: they are what they are, whatever default classes, frames and the parent itself say."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

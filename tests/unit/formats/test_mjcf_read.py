@@ -1,7 +1,5 @@
 """Geoms of an MJCF as hulls and opaque pieces: shapes, places, names, bodies; held against MuJoCo where it tells."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

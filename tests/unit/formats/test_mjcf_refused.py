@@ -1,7 +1,5 @@
 """MJCF that MuJoCo refuses: read for their collision geometry, or one message about the authored line."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

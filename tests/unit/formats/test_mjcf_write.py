@@ -1,7 +1,5 @@
 """Edited MJCF as text: names, references, files that are included, what may not be changed, and all bytes around."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Names that were meant to mark collision for an engine and do not: `check` for that engine says so."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """OBJ: reading its dialects, and edits that leave the rest of the text alone."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Meshes out of the objects that people hold: trimesh, MjSpec and the text of an MJCF, Usd.Stage; and back."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Files that are no plain files: pipes, devices, loops, folders, names of all kinds; and XML without measure."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """STL, PLY, VRML: edits keep the rest of the file, and say how hulls are counted anew."""
 
-from __future__ import annotations
-
 import pickle
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """PLY: properties of every type are read, and hold what is written into them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

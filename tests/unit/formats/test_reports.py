@@ -1,7 +1,5 @@
 """What conversions say: golden texts beside the tests, and what a report is made of."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

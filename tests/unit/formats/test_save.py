@@ -1,7 +1,5 @@
 """Saving: the whole tree, atomically, and nothing that is there already gets hurt."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """SDFs made of other formats: links, joints, masses and visuals where they were."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

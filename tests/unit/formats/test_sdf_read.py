@@ -1,7 +1,5 @@
 """SDF files as assets: shapes where Gazebo has them, frames, meshes in their units, joints, masses, visuals."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Written SDFs: unedited ones byte for byte, edited ones with other collisions and nothing else."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reading segmented points; each wrong input has one message."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """ASCII STL: facets are found whatever the titles of solids say; other layouts are in tests/corpus/stl."""
 
-from __future__ import annotations
-
 import pytest
 
 from meshforge.formats.meshfile.stl import parse_stl

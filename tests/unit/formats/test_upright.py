@@ -1,7 +1,5 @@
 """Up in files: what stands in a format of Y stands in a format of Z, and plain meshes keep their coordinates."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

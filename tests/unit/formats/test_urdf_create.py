@@ -1,7 +1,5 @@
 """Making a URDF from an asset of another format."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree

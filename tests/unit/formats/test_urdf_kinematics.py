@@ -1,7 +1,5 @@
 """Links and joints: where everything is at zero, and which trees are none."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

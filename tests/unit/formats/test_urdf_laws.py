@@ -1,7 +1,5 @@
 """Laws of the URDF writer, over random edits of random files."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path

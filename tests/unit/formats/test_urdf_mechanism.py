@@ -1,7 +1,5 @@
 """Joints and masses of a URDF in the root frame; odd ones never stop a reading."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

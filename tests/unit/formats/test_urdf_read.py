@@ -1,7 +1,5 @@
 """Collision elements of a URDF as hulls and opaque pieces: shapes, places, names, meshes."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

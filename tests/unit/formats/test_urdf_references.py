@@ -1,8 +1,6 @@
 """References to mesh files: where they lead, what is said when they lead nowhere, what must go along. The XML of a
 URDF: read as engines read it, hardened, with places that can be edited."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Writing a URDF: an edit changes its collision elements and nothing else, and reads back as what was meant."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Stages made of assets of other formats: checked by USD's own validators, told to engines by its own reader."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """USD's library runs in a process of its own: a layer that crashes or hangs it is one error; nothing else is lost."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

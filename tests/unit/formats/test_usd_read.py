@@ -1,7 +1,5 @@
 """USD stages read: what collides, of which shape, where, and of which body."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Edited USD stages: what the edit says is in the file, and all else of its layers is as it was."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Xacro files: read as the URDF that they expand to, written as plain URDF."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Solids of boxes and rods, and their surfaces."""
 
-from __future__ import annotations
-
 import numpy as np
 from manifold3d import Manifold
 

@@ -1,7 +1,5 @@
 """What coal is given: hulls of more edges at a vertex than it can count; and which boxes are near each other."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

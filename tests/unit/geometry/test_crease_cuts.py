@@ -1,7 +1,5 @@
 """Pieces cut at creases: where a patch or a loop ends a part, at stubs, and where a cut makes loose pieces tight."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold

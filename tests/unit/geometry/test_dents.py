@@ -1,8 +1,6 @@
 """Surfaces that nearly fill their hulls: with a hole or a dent they are none, with rounding and noise they are.
 Surfaces with so many faces that convexity is judged edge by edge, and points that rise above them, by groups."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold

@@ -1,7 +1,5 @@
 """FCL, which stands in for coal on Windows, finds the contacts that coal finds."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

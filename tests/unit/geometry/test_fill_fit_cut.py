@@ -1,7 +1,5 @@
 """Shapes that are made: fills, fits, cuts, overlaps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Fine pieces of a surface: kept whole, and by another engine."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Surfaces that are no solids: holes closed before a decomposition, and sheets."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

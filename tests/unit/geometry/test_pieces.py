@@ -1,7 +1,5 @@
 """Pieces of surfaces: what holds together, and what counts as a hull."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,6 @@
 """Regions of a surface between its concave edges, and the fine pieces that are of each. What a surface encloses: how
 much shapes have of it, the hulls of that, and surfaces that enclose nothing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The Python side of the commands that look at one asset: it takes meshes and paths alike."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

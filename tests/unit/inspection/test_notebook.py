@@ -1,7 +1,5 @@
 """What a mesh is in a prompt and in a notebook: one line, and a picture beside a table."""
 
-from __future__ import annotations
-
 import base64
 import io
 import pickle

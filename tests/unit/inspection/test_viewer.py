@@ -1,7 +1,5 @@
 """The viewer, with something in the place of viser that keeps what it is told."""
 
-from __future__ import annotations
-
 import sys
 import time
 import webbrowser

@@ -1,7 +1,5 @@
 """A process that carries labels over the bundled tables, and prints all that came of it: to be run on other kernels."""
 
-from __future__ import annotations
-
 import json
 
 from meshforge.batch import text_digest

@@ -1,7 +1,5 @@
 """A process that labels a project as it is told line by line, and says when each is done: made to be killed."""
 
-from __future__ import annotations
-
 import json
 import sys
 

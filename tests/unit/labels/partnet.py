@@ -1,7 +1,5 @@
 """A small asset as PartNet-Mobility has them: parts with meshes, named where they are shown."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tests.unit.batch.families import Corner, obj

@@ -1,7 +1,5 @@
 """Descriptions of hulls: the same part is described alike, however it lies; and which way is up in a tilted mesh."""
 
-from __future__ import annotations
-
 import tracemalloc
 
 import numpy as np

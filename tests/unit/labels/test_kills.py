@@ -1,8 +1,6 @@
 """Labels survive a kill at any moment: what a person said before stays, and no file is left that cannot be read. Labels
 by worker processes: one asset that cannot be read costs one asset, a kill costs nothing that was done."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

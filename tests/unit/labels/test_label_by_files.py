@@ -1,7 +1,5 @@
 """Labels out of files of other tools: segmented points."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

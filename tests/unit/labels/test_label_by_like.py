@@ -1,7 +1,5 @@
 """Labels of another project, or of a family that ships."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Linear algebra rounds otherwise on another processor; labels and advice are the same there, bit for bit."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Look-alikes of a family with more meshes than are compared: found bit by bit as they are found at once."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Labels read off names: right where names say them, sure only where they say them plainly."""
 
-from __future__ import annotations
-
 from fnmatch import fnmatchcase
 
 import pytest

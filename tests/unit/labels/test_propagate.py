@@ -1,7 +1,5 @@
 """Labels carried from a few meshes to the rest: right mostly, sure when right, the same every time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

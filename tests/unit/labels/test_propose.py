@@ -1,8 +1,6 @@
 """What would be taken is shown as it is taken then, and nothing is written by that. Labels that are there to be taken,
 told without reading assets."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

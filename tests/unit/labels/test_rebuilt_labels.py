@@ -1,7 +1,5 @@
 """Labels of rebuilt bodies: inferred together, so that they are no evidence for each other."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

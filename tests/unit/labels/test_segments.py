@@ -1,7 +1,5 @@
 """Classes of hulls from segmented points: laws over boxes, whose points are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Hulls that look like some hulls, in one mesh and in several."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

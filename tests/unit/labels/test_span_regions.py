@@ -1,7 +1,5 @@
 """What regions say about the labels of fine pieces, and about hulls that span parts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

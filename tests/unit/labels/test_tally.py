@@ -1,7 +1,5 @@
 """How far a project is labelled, in counts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.labels import NameContradiction, SourceTally

@@ -1,7 +1,5 @@
 """What is equal but for its last digits is chosen, ranked and described alike."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

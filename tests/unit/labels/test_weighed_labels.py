@@ -1,7 +1,5 @@
 """Labels of all sources weighed together: a person's stays, right ones stay as they are, and all can be put back."""
 
-from __future__ import annotations
-
 from contextlib import ExitStack
 from pathlib import Path
 from typing import cast

@@ -1,7 +1,5 @@
 """Families of small tables that a model on loopback is asked about."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Small meshes that the tests of the language talk about."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What each action makes of its hulls."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

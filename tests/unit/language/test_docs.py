@@ -1,7 +1,5 @@
 """The language reference: its programs parse and are canonical, its tables tell what the classes tell."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

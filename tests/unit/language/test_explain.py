@@ -1,7 +1,5 @@
 """Sentences about rules."""
 
-from __future__ import annotations
-
 import pytest
 
 from meshforge.language import Program, explain, parse_extractor

@@ -1,7 +1,5 @@
 """Golden programs: `NAME.mf` lies beside its canonical form, `NAME.out`, or the error that it gives, `NAME.err`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

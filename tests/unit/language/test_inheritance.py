@@ -1,7 +1,5 @@
 """A made hull takes the contact attributes of the largest hull; where the others differ, the trace says so."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.geometry import Pose

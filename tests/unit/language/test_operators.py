@@ -1,7 +1,5 @@
 """Extractors combined by Python's operators, and printed."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 

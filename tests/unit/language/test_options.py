@@ -1,7 +1,5 @@
 """Options of actions: sizes of one's own, axes, what encloses and what keeps a gap, and what a user is told."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Orientation: which frame the landmarks ask for."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial import ConvexHull

@@ -1,7 +1,5 @@
 """Programs and their nodes made in Python, and programs read from files."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

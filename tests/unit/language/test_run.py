@@ -1,7 +1,5 @@
 """Running programs: orientation, rules in order, the trace, and what can go wrong."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

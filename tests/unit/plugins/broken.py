@@ -1,7 +1,5 @@
 """Plug-ins that do one thing wrong, as source of a module."""
 
-from __future__ import annotations
-
 HEAD = """
 from dataclasses import dataclass, field
 import sys

@@ -1,7 +1,5 @@
 """The package of docs/plugins.md, installed as one of its own: every command of the page, and what it adds in use."""
 
-from __future__ import annotations
-
 import json
 import os
 import shlex

@@ -1,7 +1,5 @@
 """A leaf extractor of a plug-in: in Python, in the studio, and what it may do wrong."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

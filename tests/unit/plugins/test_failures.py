@@ -1,7 +1,5 @@
 """What plug-ins do wrong: one clear message that names the package, the asset fails by name, the rest goes on."""
 
-from __future__ import annotations
-
 import json
 import pickle
 from collections.abc import Callable, Iterator

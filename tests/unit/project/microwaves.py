@@ -1,7 +1,5 @@
 """A project of microwaves of boxes: a disc lies flat in each, and two flat bars lie 14.1 mm before the door."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

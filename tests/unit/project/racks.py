@@ -1,8 +1,6 @@
 """A project of racks whose legs are merged: on one of them, which nobody demonstrated, a person called the rail between
 the legs a leg, so that they become one solid block."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Racks whose results a person judges: every kind of reply, and what it should do to probabilities."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """A family of little racks about which two demonstrations leave something open, and one with a wrong label."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Stools of a seat and four legs, each a solid of their visual mesh; hulls of parts, or one that spans two."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A project of three small tables, as far on its way as a test needs it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.batch import IN_PROCESS

@@ -1,7 +1,5 @@
 """Results that a person accepts one by one are learned from."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Results that stand out before they are written: made in memory, they are measured as `apply` would measure them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

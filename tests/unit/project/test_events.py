@@ -1,7 +1,5 @@
 """What people said is kept as events, one a line: merged by lines, and named by line where it is damaged."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -1,8 +1,6 @@
 """A change to a project that is killed has happened whole, or not at all. A reply whose command was killed is taken by
 the same command again, which then exits as if it had not been."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import threading

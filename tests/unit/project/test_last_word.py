@@ -1,8 +1,6 @@
 """Two people reply otherwise to one question, one after the other: the first word counts until it is taken back. What
 every kind of reply does to the probabilities of a family, by `Project.reply` and by `review --answers`."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The table of a project's files agrees with what lies in a project, and with what is named where it cannot be read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.batch import stamp_path

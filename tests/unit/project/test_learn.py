@@ -1,8 +1,6 @@
 """A project learns from its demonstrations and from what a person said since. What a person says while a program is
 learned is kept, read again, and can be taken back."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

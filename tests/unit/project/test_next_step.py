@@ -1,7 +1,5 @@
 """The one function that chooses what is sensible to do next, for the commands and the studio."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What `status` proposes next is typed word for word, in each state of a project; it has to work, and to lead on."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Callable
 from pathlib import Path

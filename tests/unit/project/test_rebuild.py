@@ -1,7 +1,5 @@
 """Rebuilt bodies: which hulls are rebuilt and by what, and that no gap is left in the surface that hulls held."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A project reviewed and signed off: what a sign-off rests on, when it is void, and what becomes of replies."""
 
-from __future__ import annotations
-
 import json
 import sys
 from datetime import UTC, datetime

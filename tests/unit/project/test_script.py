@@ -1,7 +1,5 @@
 """Projects in a plain script of a user's: without a main guard, beside threads, in a folder of somebody else."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What a person did on a hull survives that hull's split, and comes back when the split is undone."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The question whether assets are to be turned, in a project: what a reply does, and how it is shown."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What makes a sign-off void, and what does not: every kind of change, one after the other."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

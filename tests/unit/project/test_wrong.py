@@ -1,7 +1,5 @@
 """What becomes of a result that is called wrong, and of assets that are given up."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

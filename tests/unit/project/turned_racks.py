@@ -1,7 +1,5 @@
 """A project of racks that lie differently in their files, so that a rule which asks for the highest boards fails."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Small meshes to take pictures of."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which hull gets which colour."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

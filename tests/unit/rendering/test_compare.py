@@ -1,7 +1,5 @@
 """Pictures of edits, and sheets."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Names of hulls on pictures: names where they fit, else numbers with a legend that has all names."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any

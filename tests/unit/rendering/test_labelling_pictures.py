@@ -1,7 +1,5 @@
 """Pictures for labelling: every hull is seen and numbered, exactly as the pictures tell."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Numbers on pictures: where they stand, and that none covers another. The middle of what is seen of a thing."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st

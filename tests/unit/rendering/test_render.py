@@ -1,7 +1,5 @@
 """Pictures of meshes. Pictures as files."""
 
-from __future__ import annotations
-
 from base64 import b64decode
 from io import BytesIO
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Thumbnails: which hull a pixel shows, how bright it is, how much of it is covered."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What rays see, against geometry. Pictures in which certain hulls can be seen."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

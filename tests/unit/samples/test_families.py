@@ -1,7 +1,5 @@
 """The families that `meshforge samples` writes: whole, legal, the same each time; one program is right for each."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

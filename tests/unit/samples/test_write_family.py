@@ -1,7 +1,5 @@
 """Writing a family into a folder: nothing of the user's is replaced, and nothing is added to it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

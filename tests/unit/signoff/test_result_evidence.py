@@ -1,7 +1,5 @@
 """What results and labels say of a family: labels by results, readings by results called wrong, look-alikes as one."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import exp, log
 

@@ -1,7 +1,5 @@
 """A family reviewed: what makes an edit doubtful, and which question is asked first."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Slips in demonstrations: asked about where a simpler rule would select all the others, and then corrected or not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """Whether assets are to be turned: what is asked, of which asset, and where nothing is asked."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What tests of the studio share: the bundled tables as a project, and a flag that stops work."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pytest

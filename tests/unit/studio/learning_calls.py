@@ -1,7 +1,5 @@
 """Functions that tests have the learning process call: found by their names in the process, too."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

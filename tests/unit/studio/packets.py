@@ -1,7 +1,5 @@
 """Reads packets as the page does, by what the contract says alone."""
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

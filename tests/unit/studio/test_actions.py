@@ -1,7 +1,5 @@
 """Actions as the page shows and sends them, against the language itself; those of plug-ins take the same road."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import combinations, product

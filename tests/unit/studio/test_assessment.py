@@ -1,7 +1,5 @@
 """How sure edits are, as pages are told; and labels of a group."""
 
-from __future__ import annotations
-
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (

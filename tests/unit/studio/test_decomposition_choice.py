@@ -1,7 +1,5 @@
 """How the studio decomposes what has no hulls, where nobody says how."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The studio keeps what its learning process found as a review does, and signs off by it; never what is out of date."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """The process that learns: what it gives, that it stops when told to, and that its death is one message."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from concurrent.futures import Future
 from pathlib import Path

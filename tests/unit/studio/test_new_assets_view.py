@@ -1,7 +1,5 @@
 """What the page is told of assets that came after the others were prepared."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Assets in the midst of edits, against what running programs gives. Pictures that the page colours by itself."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from io import BytesIO

@@ -1,7 +1,5 @@
 """Programs as the page gets them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Assets and their triangles, as the page gets them."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

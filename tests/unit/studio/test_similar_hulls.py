@@ -1,7 +1,5 @@
 """Look-alikes in a family that is too large to be looked in whole."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

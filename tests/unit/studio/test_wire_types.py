@@ -1,7 +1,5 @@
 """The page's types are those of the server's messages."""
 
-from __future__ import annotations
-
 from script.wire import TARGET, generate
 
 

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 
 from meshforge.project import GIVEN, NO_LABEL, NextStep

@@ -1,7 +1,5 @@
 """The history of a studio's edits: done, undone, beside changes from elsewhere, and whole after a kill."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory

@@ -1,7 +1,5 @@
 """What the history says about propagated labels: what changed, which labels came since, and undo."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Assets that are left out and added, each undone: the settings, the ids, and what is kept for them."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

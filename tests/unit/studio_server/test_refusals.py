@@ -1,7 +1,5 @@
 """What a page is told where files are damaged, gone, or refused by the disk: where, what is wrong, and the remedy."""
 
-from __future__ import annotations
-
 import errno
 import os
 import tempfile

@@ -1,8 +1,6 @@
 """Every kind of reply as the page sends it: it writes what `Project.reply` writes, undo takes it back, and which way it
 moves how sure an edit is."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The start page: recent projects, folders, and new projects that are there whole or not at all."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import os

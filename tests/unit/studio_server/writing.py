@@ -1,7 +1,5 @@
 """An edit that writes files, as simple as can be, for tests of the history."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from meshforge.batch import AssetSet

@@ -1,7 +1,5 @@
 """Meshes: contacts, names of hulls and labels."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Orientations that are suggested beside a program, since its rules are more doubtful in the files' own frames."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Answers to questions: taken, declined, stale, contradicting; and about hulls that earlier rules make."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,7 +1,5 @@
 """What a person is asked, and which mesh is best demonstrated first."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import pytest

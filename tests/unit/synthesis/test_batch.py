@@ -1,7 +1,5 @@
 """The meshes that a program is learned for: their names, and which of them stay away."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

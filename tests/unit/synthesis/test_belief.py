@@ -1,8 +1,6 @@
 """How believable readings are, and which one a program takes. What the batch says about a reading: idle, strange; and
 operands and limits that nothing was shown of."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

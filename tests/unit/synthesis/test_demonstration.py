@@ -1,7 +1,5 @@
 """Steps and demonstrations, and what contradicts itself in them."""
 
-from __future__ import annotations
-
 import pytest
 
 from meshforge.common import DemonstrationError

@@ -1,7 +1,5 @@
 """What is said where no extractor matches: plain sentences that name the hulls."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import pytest

@@ -1,7 +1,5 @@
 """Suggested orientations: landmark pairs that bring demonstrations into a common frame."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import pytest

@@ -1,7 +1,5 @@
 """Learning programs: evidence, replay, vocabulary, thresholds and limits."""
 
-from __future__ import annotations
-
 from itertools import count
 
 import pytest

@@ -1,7 +1,5 @@
 """The order among extractors that select the same."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 

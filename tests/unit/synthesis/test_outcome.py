@@ -1,7 +1,5 @@
 """Outcomes, and the JSON that scripts read."""
 
-from __future__ import annotations
-
 import json
 
 from meshforge.language import Delete, Merge

@@ -1,8 +1,6 @@
 """The search of the paper strategy: order, counts, layers, limits and the nearest miss. Labels that it suspects: found,
 asked about, refused, and never more than allowed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from itertools import count
 

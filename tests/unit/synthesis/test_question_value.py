@@ -1,7 +1,5 @@
 """What is at stake between readings, and which question settles most of it."""
 
-from __future__ import annotations
-
 import pytest
 
 from meshforge.synthesis.candidates.rank import MAX_CHOICES, QUESTION_PRICE, SAMPLE_SEEN, UNSEEN_COST, QuestionValue

@@ -1,8 +1,6 @@
 """Which labels are proposed to be corrected, and which are left alone. How believable labels are, by their source,
 their confidence and the hulls that are like theirs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Wrong labels of landmark hulls, which turn a demonstrated mesh into another frame than the rest."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 
 from meshforge.language import Delete, show

@@ -1,7 +1,5 @@
 """Repairs of labels that a person is asked about while a program is learned."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import count

@@ -1,7 +1,5 @@
 """The running example of the paper: five rules from two tables, one of which lies on its side."""
 
-from __future__ import annotations
-
 from meshforge.language import Action, Delete, Each, Is, LandmarkPair, Merge, Orient, Replace
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, Step, synthesize

@@ -1,7 +1,5 @@
 """An asset put on a plane in MuJoCo: whether it rests, and which bodies reach into each other before anything moves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """What an edit is worth in a simulation: contacts, time to rest and steps a second in MuJoCo, before and after."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from time import thread_time
 from typing import Any

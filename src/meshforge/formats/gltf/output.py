@@ -1,7 +1,5 @@
 """The files of a written scene: new geometry in buffers, and the container that the name of the output asks for."""
 
-from __future__ import annotations
-
 import base64
 import codecs
 import copy
@@ -68,7 +66,7 @@ def prepare_base(source: bytes, scene: GltfScene, name: str) -> EditBase:
     return EditBase(container, is_binary, tree, chunk, made)
 
 
-def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None, name: str) -> Output:
+def pack_scene(base: EditBase, scene: GltfScene, geometry: "GeometryBuffer | None", name: str) -> Output:
     """Return the files of an edited scene; geometry: what was added to it, the tree edited with it."""
     tree = base.tree if geometry is None else geometry.tree
     copies, made = find_companions(scene.path), dict(base.made)

@@ -1,7 +1,5 @@
 """A folder of mesh files as one asset, read and written: one body, the pieces of its files its hulls, named so."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable, Collection
@@ -39,7 +37,7 @@ _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file 
 class FolderDocument(Document):
     """The files of a folder, in natural order."""
 
-    members: tuple[FolderMember, ...]
+    members: "tuple[FolderMember, ...]"
 
 
 class FolderFormat(Format):

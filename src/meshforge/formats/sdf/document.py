@@ -1,7 +1,5 @@
 """What is kept of an SDF to write it back: its files, their references, roots and versions, and `model.config`."""
 
-from __future__ import annotations
-
 import os
 import posixpath
 import re
@@ -64,7 +62,7 @@ class SdfDocument(Document):
     mesh files that hold several pieces.
     """
 
-    sources: tuple[SdfSource, ...]
+    sources: "tuple[SdfSource, ...]"
     authored: tuple[CollisionElement, ...]
     at: tuple[ElementPlace, ...]
     links: dict[str, ElementPlace]
@@ -76,7 +74,7 @@ class SdfDocument(Document):
 class SdfSource(SourceFile):
     """An authored file; resolver: finds what it refers to; count: how often it is included."""
 
-    resolver: ModelResolver
+    resolver: "ModelResolver"
     count: int = 1
 
 

@@ -1,8 +1,6 @@
 """The parts of a surface whose boundaries are known, from names: a part for each triangle;
 parts that are too small, or that bound a hollow, joined with those that they touch."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -40,7 +38,7 @@ class SurfaceParts:
         """Whether there are two parts at least, so that there is a boundary."""
         return len(self.of_face) > 0 and bool((self.of_face != self.of_face[0]).any())
 
-    def select(self, faces: Ints) -> SurfaceParts:
+    def select(self, faces: Ints) -> "SurfaceParts":
         """Return the parts of some triangles (k,), by their places."""
         return SurfaceParts(self.of_face[faces], self.names)
 

@@ -1,7 +1,5 @@
 """What asking costs, and the limit on it: no question is asked that could pass it."""
 
-from __future__ import annotations
-
 import math
 import threading
 from collections.abc import Callable, Iterator

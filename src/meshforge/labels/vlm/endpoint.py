@@ -1,7 +1,5 @@
 """Where a model is asked: the address, the model, the place of the key, prices; and which hosts a user has approved."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Collection

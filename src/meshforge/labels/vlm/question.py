@@ -1,7 +1,5 @@
 """A question to a model, its request and its answer, and the folder that keeps both: none is paid for twice."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import json

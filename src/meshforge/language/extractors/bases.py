@@ -1,7 +1,5 @@
 """The base extractors: all hulls, and those with a label."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -31,7 +29,7 @@ class All(BaseExtractor):
         return "any other hull"
 
     @classmethod
-    def enumerate(cls, candidates: Candidates) -> Iterator[All]:
+    def enumerate(cls, candidates: Candidates) -> "Iterator[All]":
         yield All()
 
     @property
@@ -58,7 +56,7 @@ class Is(BaseExtractor):
         return f"{article} {word} hull"
 
     @classmethod
-    def enumerate(cls, candidates: Candidates) -> Iterator[Is]:
+    def enumerate(cls, candidates: Candidates) -> "Iterator[Is]":
         yield from map(Is, candidates.labels)
 
     @property

@@ -1,7 +1,5 @@
 """What a series of labelling pictures shows: the hulls of a mesh in their places, or some among faint others."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -103,7 +101,7 @@ class Arrangement:
     close: tuple[int, ...] = ()
 
     @staticmethod
-    def in_place(subject: LabelingSubject) -> Arrangement:
+    def in_place(subject: LabelingSubject) -> "Arrangement":
         """Return all hulls in their places."""
         return Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points)
 

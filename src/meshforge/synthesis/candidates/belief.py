@@ -7,8 +7,6 @@ demonstrated on one, two or three meshes (`script/bench calibrate` fits them ane
 were not fitted).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -48,7 +46,7 @@ STRANGE_LABEL = 3.0
 
 def compute_beliefs(
     terms: Sequence[Term],
-    found: Sequence[CandidateEvidence],
+    found: "Sequence[CandidateEvidence]",
     shown: int,
     assets: int,
     against: Sequence[float] | None = None,

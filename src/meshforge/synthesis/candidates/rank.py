@@ -1,8 +1,6 @@
 """The readings of one rule: every extractor up to some size that selects what was shown, ranked; which one the program
 takes, where the others differ, and the question that tells them apart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -172,7 +170,7 @@ class RankedCandidates:
         self.beliefs = tuple(shares[k] for k in order)
 
     @staticmethod
-    def of_single(search: Search, extractor: Extractor) -> RankedCandidates:
+    def of_single(search: Search, extractor: Extractor) -> "RankedCandidates":
         """Return one extractor, whatever else is consistent."""
         term = search.field.term(extractor)
         return RankedCandidates(search, ConsistentTerms((term,), term.size, False))
@@ -196,7 +194,7 @@ class RankedCandidates:
         other = self.terms[candidate].bits ^ self.terms[0].bits
         return tuple(k for k, present in enumerate(self.field.present) if other & present)
 
-    def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
+    def best_question(self, trust: Mapping[int, float]) -> "QuestionSplit | None":
         """Return the best question about an asset of the batch.
 
         trust: places of the meshes that it may be about, with how much an answer about each is worth.

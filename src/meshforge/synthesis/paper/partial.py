@@ -1,8 +1,6 @@
 """Partial programs: extractors with holes, all ways to fill the first hole, the worklist of them, simplest first; and
 what they select at least on one demonstrated mesh, under its labels or others."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -29,7 +27,7 @@ class OpenOperator:
     """An operator that has a hole somewhere. make: gives an extractor of its operands."""
 
     make: Callable[..., language.Extractor]
-    operands: tuple[Partial, ...]
+    operands: "tuple[Partial, ...]"
 
 
 Open = Hole | OpenOperator

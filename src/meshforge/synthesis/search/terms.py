@@ -7,8 +7,6 @@ whole earlier, so the earliest extractor is made of earliest parts, and of all p
 search may forget all but the first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -124,8 +122,8 @@ class Compound:
     """A set operator over two terms."""
 
     operator: SetOperator
-    left: Term
-    right: Term
+    left: "Term"
+    right: "Term"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

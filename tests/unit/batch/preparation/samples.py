@@ -1,7 +1,5 @@
 """Assets with something to prepare: a URDF with an opaque corner, a bare link and hulls, and quick settings."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory

@@ -1,7 +1,5 @@
 """One convex hull for each collision element, whatever pieces its mesh has, in every format that has elements."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

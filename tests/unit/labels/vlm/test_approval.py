@@ -1,7 +1,5 @@
 """What a project of a stranger cannot have sent: nothing to a host that the user did not approve, no other secrets."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
