@@ -123,3 +123,21 @@ def test_no_row_moves_under_the_pointer_where_a_message_comes(tmp_path: Path, br
         person.press("2")
         person.sees("1 hull of t0.obj labelled first")
         assert row.bounding_box() == before
+
+
+def test_a_form_shows_what_is_chosen_and_lets_it_be_chosen_back(tmp_path: Path, browser: Browser) -> None:
+    with visiting(tmp_path, four_legged(tmp_path), browser, 1024, 700) as (_, person):
+        person.press("Alt+2")
+        person.hull("top")
+        person.press("r")
+        person.click("capsule")
+        along, fit = person.page.get_by_role("group", name="Along"), person.page.get_by_label("Fit").last
+        assert along.get_by_role("radio", checked=True).inner_text() == "by itself"
+        person.click(along.get_by_role("radio", name="X"))
+        assert along.get_by_role("radio", checked=True).inner_text() == "X"
+        fit.select_option(label="tight, in any direction")  # which goes with no axis
+        assert along.get_by_role("radio", checked=True).inner_text() == "by itself"
+        fit.select_option(label="bounding box")
+        assert fit.input_value() == ""
+        box = fit.bounding_box()
+        assert box and box["x"] + box["width"] <= 1024

@@ -39,11 +39,11 @@ export function Choice<T extends string>(props: {
       type="single"
       aria-label={props.name}
       className={css.choice}
-      value={props.value}
-      onValueChange={(value) => value && props.onChange(value as T)}
+      value={`=${props.value}`} // as an empty one, such as that of what is left out, would stand for none
+      onValueChange={(value) => value && props.onChange(value.slice(1) as T)}
     >
       {props.options.map(({ value, label, name }) => (
-        <ToggleGroup.Item key={value} value={value} className={css.choiceItem} aria-label={name} title={name}>
+        <ToggleGroup.Item key={value} value={`=${value}`} className={css.choiceItem} aria-label={name} title={name}>
           {label}
         </ToggleGroup.Item>
       ))}

@@ -40,8 +40,17 @@ export function ArgumentField({ argument, value, given, form, onChange }: Argume
       {kind === "file" && <TemplateField value={String(value ?? "")} onChange={onChange} />}
       {kind === "shape" && <ShapeField primitives={argument.choices} value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && isDirections(argument) && <DirectionField value={String(value ?? "")} onChange={onChange} />}
-      {kind === "words" && !isDirections(argument) && (
+      {kind === "words" && !isDirections(argument) && words.length <= MOST_IN_A_ROW && (
         <Choice name={title} value={String(value ?? OMITTED)} options={words} onChange={onChange} />
+      )}
+      {kind === "words" && !isDirections(argument) && words.length > MOST_IN_A_ROW && (
+        <select className={css.input} aria-label={title} value={String(value ?? OMITTED)} onChange={(event) => onChange(event.target.value)}>
+          {words.map((word) => (
+            <option key={word.value} value={word.value}>
+              {word.label}
+            </option>
+          ))}
+        </select>
       )}
     </Field>
   );
@@ -49,6 +58,9 @@ export function ArgumentField({ argument, value, given, form, onChange }: Argume
 
 const isDirections = ({ choices }: Argument): boolean =>
   choices.every((word) => /^[+-]/.test(word)) && choices.length > 0;
+
+/** More words than these do not fit side by side into the column. */
+const MOST_IN_A_ROW = 4;
 
 /** Stands for an optional word that is left out. */
 const OMITTED = "";
