@@ -167,6 +167,8 @@ def test_a_family_goes_from_nothing_to_an_export(
         person.click("Apply to all")
         studio.cards(is_up_to_date)
         person.click(person.page.get_by_role("radio", name="Export"))
+        if "OBJ" in family.found:
+            person.sees("make one solid hull")
         person.click(f"Export {len(truth)} assets")
         person.sees("The last export")
         assert not person.complaints

@@ -938,7 +938,8 @@ export interface FamilyOffer {
 }
 /**
  * The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: the
- * titles of those whose limits can be checked, by name; leave: whether the page can leave the project.
+ * titles of those whose limits can be checked, by name; merged_files: formats of which those in `merged_by` make one
+ * hull a file; leave: whether the page can leave the project.
  */
 export interface Hello {
   kind: "hello";
@@ -958,6 +959,8 @@ export interface Hello {
   engines: {
     [k: string]: string;
   };
+  merged_files: string[];
+  merged_by: string[];
   leave: boolean;
 }
 /**

@@ -6,7 +6,8 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "limits": (
-            "CODES CODES_BY_RULE ENGINES Engine Finding Limit RuleCode Severity check_limits find_engine make_limit"
+            "CODES CODES_BY_RULE ENGINES MESH_FILES Engine Finding Limit RuleCode Severity check_limits find_engine "
+            "make_limit"
         ),
         "shapes": "EngineShape ShapeComparison",
     },

@@ -2,6 +2,7 @@
 from meshforge.engines.limits import CODES as CODES
 from meshforge.engines.limits import CODES_BY_RULE as CODES_BY_RULE
 from meshforge.engines.limits import ENGINES as ENGINES
+from meshforge.engines.limits import MESH_FILES as MESH_FILES
 from meshforge.engines.limits import Engine as Engine
 from meshforge.engines.limits import Finding as Finding
 from meshforge.engines.limits import Limit as Limit

@@ -24,7 +24,8 @@ _SIMPLER = "Reduce it (check --fix), replace it by a primitive, or cut it."
 _THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbour."
 _SHORTER = "Split it along its length."
 
-_MESH_FILES = ("obj", "stl", "ply")
+MESH_FILES = ("obj", "stl", "ply")
+"""Formats of which most engines make one hull a file (`Engine.merges_files`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +116,11 @@ class Engine:
     hulls: int | None = None
     hulls_problem: str = ""
     hulls_source: str = ""
+
+    @property
+    def merges_files(self) -> bool:
+        """Whether it makes one hull of a mesh file of several, as all but Bullet do (`_check_one_hull_a_file`)."""
+        return self.name != "bullet"
 
 
 def count_polygons_at_vertex(hull: Polytope) -> float:
@@ -212,7 +218,7 @@ def _check_one_hull_a_file(engine: Engine, mesh: symbolic.SymbolicMesh) -> Itera
     does, may split it before.
     """
     asset, names = mesh.asset, tuple(hull.name for hull in mesh.hulls)
-    if engine.name == "bullet" or asset is None or asset.format not in _MESH_FILES or len(names) < 2:
+    if not engine.merges_files or asset is None or asset.format not in MESH_FILES or len(names) < 2:
         return
     outs = {"mujoco": "OUT.xml", "physx-cpu": "OUT.usda", "physx-gpu": "OUT.usda"}
     out = outs.get(engine.name, f"OUT.glb --names {engine.name}")

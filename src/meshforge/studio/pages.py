@@ -6,7 +6,7 @@ from contextlib import suppress
 from threading import Lock, RLock
 from typing import Any
 
-from meshforge.engines import ENGINES
+from meshforge.engines import ENGINES, MESH_FILES
 from meshforge.project import NextStep
 from meshforge.store.history import HistoryState
 from meshforge.studio.queries.programs import build_language_view
@@ -48,6 +48,8 @@ class PageState:
             leave=leave,
             language=build_language_view(),
             engines={engine.name: engine.title for engine in ENGINES.values()},
+            merged_files=MESH_FILES,
+            merged_by=tuple(engine.name for engine in ENGINES.values() if engine.merges_files),
         )
 
     @property

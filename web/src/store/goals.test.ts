@@ -3,7 +3,7 @@ import type { GoalResultView } from "../wire";
 import { badgesOf } from "../family/cardText";
 import { countSigned, leftText, moodOf, signedText } from "./assessment";
 import { countGoal, freeName, goalText, openText } from "./goals";
-import { countExportable, groupOf, listAcceptable } from "./reviews";
+import { listExportable, groupOf, listAcceptable } from "./reviews";
 import { sampleAssessment, sampleCard, sampleRow } from "./sample.test-help";
 
 const goal = (outcome: GoalResultView["outcome"], accepted = false): GoalResultView => ({ name: "grip", goal: "graspable(Is(handle))", outcome, why: outcome === "failed" ? "no grip" : "", hulls: [], before: null, accepted, fails: outcome === "failed" && !accepted, is_open: outcome === null || (outcome === "failed" && !accepted), picture: null });
@@ -27,7 +27,7 @@ test("it is counted, said in words, flagged, and never signed off but by a perso
   const assessment = sampleAssessment(6, 0, { assets: family.map(({ asset }) => sampleRow({ asset, reviewed: asset === "c" })) });
   expect(signedText(assessment, countSigned(assessment, cards))).toBe("Signed off 3 of 6");
   expect(countSigned({ ...assessment, assets: [sampleRow({ asset: "d", reviewed: true })] }, cards)).toBe(1);
-  expect(countExportable(family.slice(0, 5), sure).signed).toBe(3);
+  expect(listExportable(family.slice(0, 5), sure).signed.length).toBe(3);
   expect(listAcceptable(family, sure)).not.toContain("b");
 });
 

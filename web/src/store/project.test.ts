@@ -21,6 +21,8 @@ const hello: Hello = {
   tour: false,
   leave: false,
   engines: {},
+  merged_files: [],
+  merged_by: [],
   language: emptyProject.language,
 };
 const begun = applyEvent(emptyProject, hello);

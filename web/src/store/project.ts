@@ -62,6 +62,8 @@ export const emptyProject: ProjectState = {
   tour: false,
   leave: false,
   engines: {},
+  merged_files: [],
+  merged_by: [],
   language: { actions: [], operators: [], directions: [], goals: [] },
   hellos: 0,
   own: 0,

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditHeader, HullView } from "../wire";
-import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, groupCards, groupOf, isSignedOff, numbersOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { alarmsOf, listAcceptable, nextInQueue, listOutdated, listExportable, groupCards, groupOf, isSignedOff, numbersOf, reviewQueue, solidText, staleText, verdictOf } from "./reviews";
 import { sampleCard, sampleRow } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -93,12 +93,21 @@ describe("what can be done with all", () => {
   });
 
   it("exports what is written, or only what is signed off and up to date", () => {
-    expect(countExportable(family, {})).toEqual({ signed: 1, all: 5 });
+    const { signed: accepted, all } = listExportable(family, {});
+    expect([accepted.length, all.length]).toEqual([1, 5]);
     const sure = Object.fromEntries(family.map(({ asset }) => [asset, sampleRow({ asset })]));
     const signed = family.filter((one) => isSignedOff(one, sure[one.asset]));
     expect(signed.every(({ stale, review }) => !stale.length && review !== "wrong")).toBe(true);
-    expect(countExportable(family, sure).signed).toBe(signed.length);
+    expect(listExportable(family, sure).signed).toEqual(signed);
     expect(signed.length).toBeGreaterThan(1);
+  });
+
+  it("are called solid where an engine makes one hull of a file of several", () => {
+    const known = { merged_files: ["stl"], merged_by: ["a", "b", "c"], engines: { a: "MuJoCo", b: "PhysX on the CPU", c: "PhysX on the GPU" } };
+    const text = (after: number, ...assets: string[]) => solidText(assets.map((asset) => card(asset, { after })), known);
+    expect([text(1, "a.stl"), text(2, "a.urdf"), text(2)]).toEqual([null, null, null]);
+    expect(text(2, "a.urdf", "b.STL")).toBe("1 of these 2 outputs is a mesh file of several hulls, of which MuJoCo and PhysX make one solid hull.");
+    expect(text(3, "a.stl", "b.stl")).toBe("These 2 outputs are mesh files of several hulls, of which MuJoCo and PhysX make one solid hull.");
   });
 });
 

@@ -3,6 +3,8 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import type { Card, ConfidenceView, EditHeader, HullView } from "../wire";
 import { failingGoals, hasOpenGoals } from "./goals";
+import type { ProjectState } from "./project";
+import { countText, listText } from "./words";
 
 export type Group = "failed" | "wrong" | "flagged" | "stale" | "open" | "accepted" | "none" | "excluded";
 
@@ -67,9 +69,18 @@ export const isUpToDate = (card: Card | undefined): boolean => card !== undefine
 export const isSignedOff = (card: Card, sure: ConfidenceView | undefined): boolean =>
   isUpToDate(card) && (card.review === "accepted" || (card.review === null && sure?.state === "signed" && !hasOpenGoals(card)));
 
-/** How many outputs an export takes. */
-export function countExportable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>>): { signed: number; all: number } {
-  return { signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])).length, all: cards.filter(isWritten).length };
+/** The outputs that an export takes. */
+export const listExportable = (cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>>) =>
+  ({ signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])), all: cards.filter(isWritten) }) as const;
+
+/** Why most engines would make solid blocks of outputs, null where none is a mesh file of several hulls. */
+export function solidText(outputs: readonly Card[], { merged_files, merged_by, engines }: Pick<ProjectState, "merged_files" | "merged_by" | "engines">): string | null {
+  const files = outputs.filter(({ asset, after }) => (after ?? 0) > 1 && merged_files.some((suffix) => asset.toLowerCase().endsWith(`.${suffix}`)));
+  if (!files.length || !merged_by.length) return null;
+  const names = [...new Set(merged_by.map((name) => (engines[name] ?? name).split(" ")[0] ?? ""))];
+  const [these, one] = [`hese ${countText(outputs.length, "output")}`, files.length === 1];
+  const which = files.length === outputs.length ? (one ? "This output" : `T${these}`) : `${files.length} of t${these}`;
+  return `${which} ${one ? "is a mesh file" : "are mesh files"} of several hulls, of which ${listText(names, names.length)} make one solid hull.`;
 }
 
 /** Numbers before and after an edit. */

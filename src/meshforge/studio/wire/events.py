@@ -30,7 +30,8 @@ class Start(Wire):
 
 class Hello(Wire):
     """The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: the
-    titles of those whose limits can be checked, by name; leave: whether the page can leave the project."""
+    titles of those whose limits can be checked, by name; merged_files: formats of which those in `merged_by` make one
+    hull a file; leave: whether the page can leave the project."""
 
     kind: Literal["hello"] = "hello"
     version: str
@@ -47,6 +48,8 @@ class Hello(Wire):
     jobs: tuple[Job, ...] = ()
     tour: bool = False
     engines: dict[str, str] = Field(default_factory=dict)
+    merged_files: tuple[str, ...] = ()
+    merged_by: tuple[str, ...] = ()
     leave: bool = False
 
 

@@ -4,7 +4,7 @@ import { useMemo, useRef, useState } from "react";
 import { openText } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
-import { countExportable } from "../../store/reviews";
+import { listExportable, solidText } from "../../store/reviews";
 import { notify } from "../../store/toasts";
 import { capitalize, countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
@@ -44,12 +44,14 @@ function Form() {
   const cards = useProject((state) => state.cards);
   const confidence = useProject((state) => state.confidence);
   const goals = useProject(openText);
-  const counts = useMemo(() => countExportable(Object.values(cards), confidence), [cards, confidence]);
+  const outputs = useMemo(() => listExportable(Object.values(cards), confidence), [cards, confidence]);
+  const solid = useProject((state) => solidText(outputs[what], state));
+  const count = outputs[what].length;
   const options = [
-    { value: "signed", label: `Signed off (${counts.signed})` },
-    { value: "all", label: `All (${counts.all})` },
+    { value: "signed", label: `Signed off (${outputs.signed.length})` },
+    { value: "all", label: `All (${outputs.all.length})` },
   ] as const;
-  const why = !counts[what] ? (what === "all" ? "Nothing is written yet: apply the program." : "Nothing that is written is signed off yet.") : null;
+  const why = !count ? (what === "all" ? "Nothing is written yet: apply the program." : "Nothing that is written is signed off yet.") : null;
   return (
     <form
       className={css.form}
@@ -70,9 +72,17 @@ function Form() {
           <p className={css.warn}>{capitalize(goals)}.</p>
         </>
       )}
+      {solid && (
+        <>
+          <span />
+          <p className={css.warn}>
+            {solid} After the export, write MJCF or URDF for them: <code>{`meshforge convert --to .xml ${project}/${folder.trim()} OUT`}</code>
+          </p>
+        </>
+      )}
       <span />
       <Button ref={button} look="primary" icon={FolderOutput} type="submit" disabled={why !== null || !folder.trim()}>
-        Export {countText(counts[what], "asset")}
+        Export {countText(count, "asset")}
       </Button>
     </form>
   );
