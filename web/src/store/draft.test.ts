@@ -160,6 +160,9 @@ describe("an action in hand", () => {
       asked: { kind: "steps", steps: 1 },
     });
     changeDraft({ each: true });
+    expect(await acceptDraft()).toBe(false); // as the rule does something else on another asset, and no program does both
+    expect(useToasts.getState().toasts.at(-1)?.text).toMatch(/^This rule does something else on/);
+    useProject.setState(({ project }) => ({ project: { ...project, rules: project.rules.map((one) => ({ ...one, shown: ["a"] })) } }));
     await acceptDraft();
     expect(sent[0]).toMatchObject({ steps: [{ select: ["x"] }, { select: ["y"], action: { ...merge, each: true } }] });
   });

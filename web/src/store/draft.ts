@@ -5,8 +5,9 @@ import { callOf, defaultArguments, formOf, missingArgument, withArgument } from 
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails, type Scene, useScenes } from "./scenes";
-import { actionOf, placeFor, placeOf, setStep, skipOffer } from "./steps";
+import { actionOf, differsOn, placeFor, placeOf, setStep, skipOffer } from "./steps";
 import { notify, reportProblem } from "./toasts";
+import { listText, shortName } from "./words";
 import { type Draft, openStage, select, setDraft, setTool, show, useWorkspace } from "./workspace";
 
 interface DraftStatus {
@@ -62,7 +63,7 @@ export async function acceptDraft(): Promise<boolean> {
   const { asset, draft, stage, selection } = useWorkspace.getState();
   const names = selectedHulls();
   if (asset === null || draft === null || useDraftStatus.getState().sending) return false;
-  const lacking = findMissing(draft, names.length);
+  const lacking = findObstacle(draft, names.length);
   if (lacking) {
     reportProblem({ message: lacking, where: null, remedy: null, conflict: false });
     return false;
@@ -95,11 +96,15 @@ function findForm(name: string): ActionForm | undefined {
   return formOf(name, useProject.getState().language.actions);
 }
 
-function findMissing(draft: Draft, hulls: number): string | null {
+/** Why an action in hand cannot be kept; null where it can. */
+export function findObstacle(draft: Draft, hulls: number): string | null {
   if (!hulls) return "Nothing is selected. Select the hulls for this step, or choose “Nothing here”.";
   const form = findForm(draft.name);
   const argument = form && missingArgument(draft, form);
-  return argument ? `${draft.name} needs ${argument.wants}.` : null;
+  if (argument) return `${draft.name} needs ${argument.wants}.`;
+  const { asset, stage } = useWorkspace.getState();
+  const others = stage === "review" ? [] : differsOn(draft, useProject.getState().project.rules, asset);
+  return others.length ? `This rule does something else on ${listText(others.map(shortName), 2)}. Make this a new rule, or change it there, too.` : null;
 }
 
 async function trackSending(send: () => Promise<boolean>): Promise<boolean> {

@@ -1,7 +1,7 @@
 // The steps of an asset, the changes to them, each one edit, and which steps are no longer offered as guesses.
 import { create } from "zustand";
 import type { ActionCall, ActionView, AssetView, RuleLine, StepEdit, StepView } from "../wire";
-import { callOf } from "./actions";
+import { callOf, isSameAction } from "./actions";
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
@@ -55,6 +55,13 @@ export function placeFor(
   view: Pick<AssetView, "steps">,
 ): number | null {
   return openPlaces(rules, view).find((place) => rules[place]?.action.name === action) ?? null;
+}
+
+/** Assets on which the rule that a draft shows does something else, which no program could; none for a new rule. */
+export function differsOn(draft: Draft, rules: readonly RuleLine[], asset: string | null): readonly string[] {
+  const rule = draft.editing === null ? undefined : rules[draft.editing];
+  if (!rule || isSameAction(rule.action, draft)) return [];
+  return [...rule.shown, ...rule.nothing].filter((other) => other !== asset);
 }
 
 /** The place (from 0) that accepting a draft writes: that of its rule, or a new one after all others. */

@@ -3,11 +3,11 @@ import { Check } from "lucide-react";
 import type { KeyboardEvent } from "react";
 import { runInTurn } from "../../commands/queue";
 import { ACTION_ICONS } from "../../steps/actionIcon";
-import { callOf, formOf, isSameAction, missingArgument } from "../../store/actions";
+import { callOf, formOf, missingArgument } from "../../store/actions";
 import { acceptDraft, changeArgument, changeDraft, dropDraft, startDraft, useDraftStatus } from "../../store/draft";
 import { previewText, usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
-import { changeActionOn } from "../../store/steps";
+import { changeActionOn, differsOn } from "../../store/steps";
 import { listText, shortName } from "../../store/words";
 import { type Draft, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
@@ -173,9 +173,9 @@ function RulePlace({ draft }: { draft: Draft }) {
 /** A rule does the same everywhere: warns where it would not. */
 function Differs({ place, draft }: { place: number; draft: Draft }) {
   const asset = useWorkspace((workspace) => workspace.asset);
-  const rule = useProject((state) => state.project.rules[place]);
-  const others = rule ? [...rule.shown, ...rule.nothing].filter((other) => other !== asset) : [];
-  if (!rule || isSameAction(rule.action, draft) || !others.length) return null;
+  const rules = useProject((state) => state.project.rules);
+  const [rule, others] = [rules[place], differsOn(draft, rules, asset)];
+  if (!rule || !others.length) return null;
   return (
     <Note mood="warn">
       A rule does the same on every asset. On {listText(others.map(shortName), 2)} this rule is {rule.action.text}.
