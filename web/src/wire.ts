@@ -661,8 +661,9 @@ export interface AssetsChanged {
  * What a folder or an upload holds, before a project is made of it.
  *
  * folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
- * looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
- * how many assets have such pieces; divided: how many of these have a piece with several parts that are known; parts:
+ * looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; seen:
+ * how many of these are bodies that are only seen, while others of their asset collide; bare: how many assets have
+ * such pieces; divided: how many of these have a piece with several parts that are known; parts:
  * some names of these; broken: how many cannot be read; problem: why the first of them cannot be read;
  * left_out: whether a project gets these not. project: the folder that is offered for the new project.
  */
@@ -672,6 +673,7 @@ export interface AssetsFound {
   assets: number;
   read: number;
   pieces: number;
+  seen: number;
   bare: number;
   divided: number;
   parts: string[];

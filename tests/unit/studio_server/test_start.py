@@ -189,7 +189,16 @@ def test_a_look_names_the_parts_of_what_has_no_hulls(page: StartPage, tmp_path: 
     write_bare_stool(tmp_path / "stools", "a")
     write_stool(tmp_path / "stools", "b", boxes(0.2, 0.4), [])
     found = page.look_at_folder(str(tmp_path / "stools"))
-    assert (found.assets, found.bare, found.divided, found.parts) == (2, 2, 1, ("seat", "leg"))
+    assert (found.assets, found.bare, found.divided, found.parts, found.seen) == (2, 2, 1, ("seat", "leg"), 0)
+
+
+def test_a_look_counts_what_is_only_seen_beside_what_collides(page: StartPage, tmp_path: Path) -> None:
+    box = '<geometry><box size="1 1 1"/></geometry>'
+    links = f'<link name="a"><collision>{box}</collision></link><link name="b"><visual>{box}</visual></link>'
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    (tmp_path / "lamp.urdf").write_text(f'<robot name="lamp">{links}{joint}</robot>')
+    found = page.look_at_folder(str(tmp_path))
+    assert (found.pieces, found.seen, found.bare) == (1, 1, 1)
 
 
 def test_a_project_of_an_upload_has_what_can_be_read_in_its_own_folder(page: StartPage, tmp_path: Path) -> None:

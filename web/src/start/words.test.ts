@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { brokenText, decomposeText, foundText, moveInto, openedText, partsText } from "./words";
 import { describeFolder, joinPath } from "./FolderDialog";
 
-const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, bare: 0, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p" };
+const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, seen: 0, bare: 0, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p" };
 
 test("what is found says where not all was looked at", () => {
   expect(foundText(found)).toBe("12 URDF");
@@ -13,6 +13,7 @@ test("what is found says where not all was looked at", () => {
 test("making hulls is explained where hulls are missing only", () => {
   expect(decomposeText(found)).toBe(null);
   expect(decomposeText({ ...found, bare: 1, pieces: 1 })).toContain("1 of 12 has geometry that is not convex, or no collision geometry: 1 piece.");
+  expect(decomposeText({ ...found, bare: 1, pieces: 3, seen: 2 })).toContain("3 pieces. 2 of these are only seen now, and would collide.");
   expect(decomposeText({ ...found, read: 5, bare: 3, pieces: 4 })).toContain("3 of the first 5 have");
 });
 

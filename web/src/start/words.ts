@@ -8,12 +8,13 @@ export function foundText({ kinds, assets, read }: AssetsFound): string {
 }
 
 /** What making hulls would do, null where there is nothing to decompose. */
-export function decomposeText({ assets, read, bare, pieces }: AssetsFound): string | null {
+export function decomposeText({ assets, read, bare, pieces, seen }: AssetsFound): string | null {
   if (!bare) return null;
   const of = read < assets ? `${bare} of the first ${read}` : `${bare} of ${assets}`;
   const have = bare === 1 ? "has" : "have";
   return (
     `${of} ${have} geometry that is not convex, or no collision geometry: ${countText(pieces, "piece")}. ` +
+    (seen ? `${seen === pieces ? "All" : seen} of these ${seen === 1 ? "is" : "are"} only seen now, and would collide. ` : "") +
     "It is done in the background; you can stop it, and undo it. Without it, the project lets you try settings on one asset first."
   );
 }

@@ -13,7 +13,7 @@ vi.mock("../server/api", () => ({
 const server = vi.mocked(api);
 
 const view = { version: "1", recent: [], places: ["/home"], tour: "/p/tour", families: [{ name: "cups", about: "", project: "/p/cups" }, { name: "tables", about: "", project: "/p/tables" }] };
-const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p/a" };
+const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, seen: 0, bare: 1, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p/a" };
 const problem = new ServerProblem({ message: "there is no such folder", where: "/a", remedy: "Browse for it.", conflict: false }, 400);
 const state = () => start.useStart.getState();
 
@@ -36,6 +36,9 @@ describe("a project of a folder", () => {
 
   it("is not decomposed where nothing is to be, or nobody wants it", async () => {
     server.lookAtFolder.mockResolvedValue({ ...found, bare: 0, pieces: 0 });
+    await start.lookAtFolder("/a");
+    expect(start.newProject(state())).toMatchObject({ decompose: null });
+    server.lookAtFolder.mockResolvedValue({ ...found, seen: 1 }); // by itself nothing collides that was only seen
     await start.lookAtFolder("/a");
     expect(start.newProject(state())).toMatchObject({ decompose: null });
     server.lookAtFolder.mockResolvedValue(found);

@@ -92,7 +92,7 @@ async function look(ask: () => Promise<AssetsFound>, isWanted = () => true): Pro
   await attempt("look", "assets", async () => {
     set({ found: null });
     const found = await ask();
-    if (isWanted()) set({ found, project: found.project, decompose: found.bare > 0 });
+    if (isWanted()) set({ found, project: found.project, decompose: found.bare > 0 && found.seen === 0 });
   });
 }
 

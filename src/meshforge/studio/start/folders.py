@@ -158,10 +158,12 @@ def _describe_refusal(folder: Path, error: OSError) -> UsageError:
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """What one asset holds. pieces: how many pieces and bodies can be decomposed; parts: names of the parts of those
-    that have several; problem: why it cannot be read."""
+    """What one asset holds. pieces: how many pieces and bodies can be decomposed; seen: how many of these are bodies
+    that are only seen, while others of the asset collide; parts: names of the parts of those that have several;
+    problem: why it cannot be read."""
 
     pieces: int = 0
+    seen: int = 0
     parts: tuple[str, ...] = ()
     problem: str | None = None
 
@@ -182,6 +184,7 @@ def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: 
         assets=len(paths),
         read=len(looks),
         pieces=sum(look.pieces for look in looks),
+        seen=sum(look.seen for look in looks),
         bare=sum(look.pieces > 0 for look in looks),
         divided=sum(bool(look.parts) for look in looks),
         parts=tuple(dict.fromkeys(name for look in looks for name in look.parts))[:MOST_PARTS],
@@ -225,7 +228,8 @@ def _look(path: Path) -> _Look:
         sources = [source for source in find_sources(asset) if not source.is_hopeless]
         known = [source.surface.parts for source in sources if source.surface.parts and source.surface.parts.is_divided]
         names = dict.fromkeys(parts.names[k] for parts in known for k in parts.numbers)
-        return _Look(len(sources), tuple(names)[:MOST_PARTS])
+        seen = sum(source.kind == "body" for source in sources) if asset.geoms or asset.non_convex else 0
+        return _Look(len(sources), seen, tuple(names)[:MOST_PARTS])
     except Exception as error:  # one asset never hides the others
         return _Look(problem=describe_error(error, str(path)).split("\n")[0])
 
