@@ -847,7 +847,8 @@ export interface DecomposeOptions {
 /**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
- * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
+ * made, removed: names of hulls, compared with the asset as it comes; changed: of those that have another shape under
+ * the same name, as a format writes it that has no new names; trace: what each rule did; findings: of the
  * check of legality; volume: the sum over hulls before and after [m^3].
  */
 export interface EditHeader {
@@ -855,6 +856,7 @@ export interface EditHeader {
   hulls: HullView[];
   made: string[];
   removed: string[];
+  changed: string[];
   note: string | null;
   trace: TraceLine[];
   findings: FindingView[];

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -180,6 +181,17 @@ def test_the_result_is_what_the_program_makes_of_it(project: Project, program: P
     assert [line["rule"] for line in header["trace"]] == [1, 2, 3, 4, 5]
     nothing, _ = read_packet(packets.preview_result(project, OTHER, mesh, "program", None))
     assert (nothing["made"], nothing["removed"]) == ([], [])
+
+
+def test_a_written_hull_of_another_shape_is_changed_and_one_that_was_rounded_is_not(project: Project) -> None:
+    mesh = project.mesh(OTHER)
+    rounded, larger, *rest = mesh.hulls
+    grown, turned = np.eye(3) * 1.2, np.eye(3) * (1 + 1e-7)
+    hulls = [
+        replace(hull, shape=hull.shape.transform(by, np.zeros(3))) for hull, by in ((rounded, turned), (larger, grown))
+    ]
+    header, _ = read_packet(packets.pack_edited(mesh, mesh, mesh.with_hulls([*hulls, *rest])))
+    assert (header["made"], header["removed"], header["changed"]) == ([], [], [larger.name])
 
 
 def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(own: Project, program: Program) -> None:

@@ -10,6 +10,7 @@ const edited = (more: Partial<EditHeader> = {}): EditHeader => ({
   hulls: [],
   made: [],
   removed: [],
+  changed: [],
   note: null,
   trace: [],
   findings: [],

@@ -138,7 +138,8 @@ class FindingView(Wire):
 class EditHeader(Wire):
     """The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
 
-    made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
+    made, removed: names of hulls, compared with the asset as it comes; changed: of those that have another shape under
+    the same name, as a format writes it that has no new names; trace: what each rule did; findings: of the
     check of legality; volume: the sum over hulls before and after [m^3].
     """
 
@@ -146,6 +147,7 @@ class EditHeader(Wire):
     hulls: tuple[HullView, ...]
     made: tuple[str, ...]
     removed: tuple[str, ...]
+    changed: tuple[str, ...] = ()
     note: str | None = None
     trace: tuple[TraceLine, ...] = ()
     findings: tuple[FindingView, ...] = ()

@@ -39,7 +39,7 @@ export function NumbersTable({ asset, before, edit }: { asset: string; before: r
     row("Volume", numbers.volume, (volume) => volumeText(volume, unit), alarms.volume),
   ];
   return (
-    <Section title="Numbers" aside={`${edit.made.length} made, ${edit.removed.length} removed`}>
+    <Section title="Numbers" aside={[`${edit.made.length} made`, `${edit.removed.length} removed`, edit.changed.length && `${edit.changed.length} changed`].filter(Boolean).join(", ")}>
       <FigureTable rows={rows} changes />
       {edit.note && <p className={css.dim}>{edit.note}</p>}
     </Section>
