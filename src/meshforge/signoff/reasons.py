@@ -120,7 +120,7 @@ def _list_label_reasons(run: ProgramRun) -> Iterator[Reason]:
         called = f"called {was}" if was else "taken by no step" if is_class_name(to) else "without a label"
         is_turned = rule == RULE_OF_FRAME
         what = "the asset would be turned otherwise" if is_turned else f"rule {rule} would select otherwise"
-        text = f"{_join(names)} {'is' if len(names) == 1 else 'are'} {called}, and may be {to} ({share:.0%}): {what}"
+        text = f"{_join(names)} {'is' if len(names) == 1 else 'are'} {called}, and may be {to}: {what}"
         yield Reason("orientation" if is_turned else "label", text, names, rule or None, share)
 
 
