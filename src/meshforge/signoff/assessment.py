@@ -142,7 +142,8 @@ class ReviewState:
     answers: to questions of learning; meant: what each rule is to select by what a person said of results, by asset;
     failed: what it did select on results that they called wrong; accepted, corrected: assets whose result they accepted
     as it is now, or said what it is to be; wrong: those of which they only said that it is wrong; edited: those with
-    edits by hand after the program; excluded: those that are given up; unconfirmed: sentences on what was shown on an
+    edits by hand after the program; changed: those whose result is not the one that a person accepted; excluded: those
+    that are given up; unconfirmed: sentences on what was shown on an
     asset and follows hulls that took the place of others, while no person has confirmed that; snoozed: ids of questions
     that are not asked again.
     """
@@ -159,6 +160,7 @@ class ReviewState:
     failed: Mapping[str, Selections] = field(default_factory=dict)
     wrong: frozenset[str] = frozenset()
     edited: frozenset[str] = frozenset()
+    changed: frozenset[str] = frozenset()
     excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
     snoozed: frozenset[str] = frozenset()
     lost: Mapping[str, str] = field(default_factory=dict)

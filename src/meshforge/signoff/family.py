@@ -23,7 +23,7 @@ from meshforge.signoff.program_run import (
     select_by,
 )
 from meshforge.symbolic import mask_of
-from meshforge.synthesis import CandidateProgram
+from meshforge.synthesis import CandidateProgram, Step
 
 ALIKE = 14.0
 """The distance of descriptions up to which hulls look alike."""
@@ -168,16 +168,22 @@ class FamilyRun:
 
     @cached_property
     def contradicted(self) -> frozenset[str]:
-        """The demonstrated assets on which the program, written by hand, does something else than was shown, and
-        nobody said of the result whether that is meant."""
+        """The demonstrated assets on which the program, written by hand, does something else than was shown, to other
+        hulls or by a rule that nobody showed, and nobody said of the result whether that is meant."""
         found = set()
         seen = self.state.accepted | self.state.corrected
+        count = max((len(demo.steps) for demo in self.state.demos.values()), default=0)
         for name, demo in ((name, demo) for name, demo in self.state.demos.items() if name not in seen):
             done = self.runs[self.places[name]].selected if name in self.places else ()
-            shown = {step.rule: step.select for step in demo.steps if step.select is not None}
-            if any(rule > len(done) or done[rule - 1] != select for rule, select in shown.items()):
+            shown = [step for step in demo.steps if step.select is not None]
+            selects = all(step.rule <= len(done) and done[step.rule - 1] == step.select for step in shown)
+            if not selects or (self.state.by_hand and (any(done[count:]) or not all(map(self._does, shown)))):
                 found.add(name)
         return frozenset(found)
+
+    def _does(self, step: Step) -> bool:
+        rule = self.program.rules[step.rule - 1]
+        return not step.select or (rule.action, rule.label) == (step.action, step.label)
 
     @cached_property
     def places(self) -> Mapping[str, int]:

@@ -17,6 +17,7 @@ from meshforge.synthesis import LearningOutcome, NeedsRepair
 CALLED_WRONG = "a person said that this result is wrong"
 CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
 EDITED_SINCE = "it was edited by hand, and nobody has accepted that"
+CHANGED = "it is not the result that a person accepted"
 CONTRADICTED = "the program does something else than was shown here"
 SURE_OF_DEMONSTRATED = 0.999
 SUGGESTION_RIGHT = 0.5
@@ -42,6 +43,8 @@ def judge_edits(
         if rows and name not in state.accepted | state.corrected:
             texts = (text if asset == name else f"{asset}: {text}" for asset, text in rows)
             one = one.with_reasons(Reason("candidate", text, share=_NOT_MEANT) for text in texts)
+        if name in state.changed:
+            one = one.with_reasons([Reason("candidate", CHANGED, share=_NOT_MEANT)])
         yield name, one
 
 

@@ -8,7 +8,7 @@ from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project
 from meshforge.signoff import THRESHOLD
-from meshforge.signoff.reasons import CALLED_WRONG_BEFORE, CONTRADICTED
+from meshforge.signoff.reasons import CALLED_WRONG_BEFORE, CHANGED, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run
@@ -138,6 +138,29 @@ def test_a_program_by_hand_that_contradicts_a_demonstration_is_the_first_reason_
     assert probabilities(found)[OTHER] < before[OTHER]
     accepted = say(project, "right", SHOWN)
     assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.need_review
+
+
+@pytest.mark.parametrize("text", ["Is(leg) => Delete", "Is(leg) => Each(Merge)\nIs(top) => Scale(all, 0.5)"])
+def test_a_program_by_hand_with_another_action_or_one_more_contradicts_what_was_shown(
+    project: Project, text: str
+) -> None:
+    (project.folder / "program.mf").write_text(f"labels top, leg, rail\n\n{text}\n")
+    found = look(project).assessment
+    assert {SHOWN, ALSO} <= set(found.need_review)
+    assert found.assets[SHOWN].reasons[0].text == CONTRADICTED
+
+
+def test_a_result_that_is_not_the_accepted_one_any_more_needs_review_however_sure_it_is(project: Project) -> None:
+    write(project)
+    accepted = say(project, "right", OTHER)
+    assert OTHER in accepted.assessment.signed_off
+    (project.folder / "program.mf").write_text("labels top, leg, rail\n\nIs(leg) => Delete\n")
+    for written in (False, True):
+        if written:
+            write(project)
+        found = look(project).assessment
+        assert OTHER in found.need_review and CHANGED in {reason.text for reason in found.assets[OTHER].reasons}
+    assert OTHER in say(project, "right", OTHER).assessment.signed_off
 
 
 @pytest.mark.slow
