@@ -141,3 +141,21 @@ def test_a_form_shows_what_is_chosen_and_lets_it_be_chosen_back(tmp_path: Path, 
         assert fit.input_value() == ""
         box = fit.bounding_box()
         assert box and box["x"] + box["width"] <= 1024
+
+
+def test_a_program_that_is_typed_stays_until_it_is_saved_or_cancelled(tmp_path: Path, browser: Browser) -> None:
+    with visiting(tmp_path, four_legged(tmp_path), browser) as (_, person):
+        person.press("Alt+3")
+        person.click("Write as text")
+        editor = person.page.get_by_role("textbox", name="Program")
+        editor.click()
+        person.type("Is(top) => Delete")
+        typed = editor.inner_text()
+        assert "Is(top) => Delete" in typed
+        person.press("Escape", "Escape")  # the first one may close a list of completions
+        assert editor.inner_text() == typed
+        person.click(person.page.get_by_role("tab", name="Review"))
+        person.click(person.page.get_by_role("tab", name="Learn"))
+        assert editor.inner_text() == typed
+        person.click("Cancel")
+        assert not editor.count()

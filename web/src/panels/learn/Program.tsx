@@ -1,6 +1,5 @@
 // The program, rule by rule or as a text to edit, and how it stands to what was learned.
 import { Pencil } from "lucide-react";
-import { useState } from "react";
 import { learnNow } from "../../commands/learn";
 import { useProject } from "../../store/project";
 import { learnedDiffers } from "../../store/readings";
@@ -9,21 +8,21 @@ import { visit } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Note, Section } from "../../ui/Section";
 import css from "./learn.module.css";
-import { ProgramEditor } from "./ProgramEditor";
+import { editProgram, ProgramEditor, useProgramDraft } from "./ProgramEditor";
 import { RuleList } from "./RuleList";
 
 export function ProgramSection() {
-  const [editing, setEditing] = useState(false);
+  const draft = useProgramDraft((state) => state.draft);
   const there = useProject((state) => state.program.text.trim() !== "" || state.program.error !== null);
   const edit = (
-    <Button look="quiet" icon={Pencil} onClick={() => setEditing(true)}>
+    <Button look="quiet" icon={Pencil} onClick={editProgram}>
       {there ? "Edit as text" : "Write as text"}
     </Button>
   );
   return (
-    <Section title="Program" aside={editing ? null : edit}>
-      {editing ? (
-        <ProgramEditor onClose={() => setEditing(false)} />
+    <Section title="Program" aside={draft ? null : edit}>
+      {draft ? (
+        <ProgramEditor {...draft} />
       ) : (
         <>
           <ProgramNotes />
