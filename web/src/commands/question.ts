@@ -27,6 +27,16 @@ export async function reply(question: ReviewQuestionView, said: Said): Promise<b
 /** Asks another question; this one does not come back as long as what it is about stays. */
 export const putOff = (question: ReviewQuestionView): Promise<boolean> => reply(question, { later: true });
 
+/** Leaves hulls of which no choice is right to the person: shows those of the first asset in the label stage, selected. */
+export function labelByHand(question: ReviewQuestionView): void {
+  const [first] = question.hulls;
+  if (first) {
+    openStage("label");
+    visit(first.asset, { kind: "source" }, question.hulls.filter(({ asset }) => asset === first.asset).map(({ hull }) => hull));
+  }
+  void reply(question, {});
+}
+
 /** What is said of a group by its first label: some hulls are something else, or, with null, left out. */
 export function groupReply({ hulls, choices: [first] }: ReviewQuestionView, exceptions: Exceptions): Said {
   const leavesOut = Object.values(exceptions).includes(null);

@@ -34,9 +34,10 @@ export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "asse
 
 /** How many assets are signed off: sure ones on which no goal is open, and what a person accepted that did not change since. */
 export const countSigned = ({ assets }: AssessmentView, cards: Readonly<Record<string, Card>>): number =>
-  assets.filter(({ asset, state, reviewed }) => {
+  assets.filter((row) => {
+    const { asset, state, reviewed } = row;
     const card = cards[asset];
-    return state === "signed" && !(card && (isVoid(card) || (!reviewed && card.goals.some((goal) => goal.is_open))));
+    return state === "signed" && !(card && (isVoid(card, row) || (!reviewed && card.goals.some((goal) => goal.is_open))));
   }).length;
 
 /** `Signed off 71 of 75`: of all assets, those that were not looked at counted. signed: see `countSigned`. */

@@ -34,7 +34,9 @@ test("it is counted, said in words, flagged, and never signed off but by a perso
 test("what was accepted and changed since is open, no longer accepted, and not counted as signed off", () => {
   const rows = [[], ["software"], ["labels", "program"]].map((stale, k) => sampleCard({ asset: `t${k}`, output: "edited", review: "accepted", stale }));
   const cards = Object.fromEntries(rows.map((one) => [one.asset, one]));
-  const assessment = sampleAssessment(3, 0, { assets: rows.map(({ asset }) => sampleRow({ asset, reviewed: true })) });
+  const assessment = sampleAssessment(3, 0, { assets: rows.map(({ asset }) => sampleRow({ asset })) });
+  const standing = { ...assessment, assets: rows.map(({ asset }) => sampleRow({ asset, reviewed: true })) }; // which comes out the same
+  expect(signedText(standing, countSigned(standing, cards))).toBe("Signed off 3 of 3");
   expect([signedText(assessment, countSigned(assessment, cards)), moodOf(assessment, openText({ cards }))]).toEqual(["Signed off 2 of 3", "warn"]);
   expect(openText({ cards })).toBe("1 result changed since you accepted it");
   expect(rows.map((card) => badgesOf(card).some(({ name }) => name === "accepted"))).toEqual([true, true, false]);

@@ -1,6 +1,6 @@
 // Goals: how many results each holds on, which are open, and the form of one that is being made or changed.
 import { create } from "zustand";
-import type { Card, GoalCall, GoalResultView, GoalView } from "../wire";
+import type { Card, ConfidenceView, GoalCall, GoalResultView, GoalView } from "../wire";
 import { type ProjectState, useProject } from "./project";
 import { countText } from "./words";
 
@@ -14,17 +14,18 @@ export const flagsOf = (card: Card): readonly string[] => [...card.flags, ...fai
 /** Whether a goal of an asset fails or was not tried. */
 export const hasOpenGoals = ({ goals, excluded }: Card): boolean => !excluded && goals.some((goal) => goal.is_open);
 
-/** Whether a person accepted the result of an asset as it was before something changed: that says nothing of it now. */
-export const isVoid = ({ review, stale }: Pick<Card, "review" | "stale">): boolean =>
-  review === "accepted" && stale.some((reason) => reason !== "software");
+/** Whether a person accepted the result of an asset as it was before something changed, and it is not known that it comes out the
+ * same: that says nothing of it now. sure: what is known of it. */
+export const isVoid = ({ review, stale }: Pick<Card, "review" | "stale">, sure?: ConfidenceView): boolean =>
+  review === "accepted" && !sure?.reviewed && stale.some((reason) => reason !== "software");
 
 /** What is open besides how sure results are: `2 changed since you accepted them; goals fail on 1 result, were not tried on 2`;
  * null where nothing changed, and all goals that apply hold, or are accepted. */
-export function openText(state: Pick<ProjectState, "cards">): string | null {
+export function openText(state: Pick<ProjectState, "cards"> & Partial<Pick<ProjectState, "confidence">>): string | null {
   const cards = Object.values(state.cards);
   const failing = cards.filter((card) => failingGoals(card).length).length;
   const untried = cards.filter((card) => !card.excluded && card.goals.some(({ outcome }) => outcome === null)).length;
-  const changed = cards.filter((card) => !card.excluded && isVoid(card)).length;
+  const changed = cards.filter((card) => !card.excluded && isVoid(card, state.confidence?.[card.asset])).length;
   const goals = [failing && `fail on ${countText(failing, "result")}`, untried && `were not tried on ${untried}`].filter(Boolean);
   const parts = [changed && `${countText(changed, "result")} changed since you accepted ${changed === 1 ? "it" : "them"}`, goals.length && `goals ${goals.join(", ")}`];
   return parts.filter(Boolean).join("; ") || null;

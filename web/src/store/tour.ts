@@ -30,16 +30,16 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
 
 /** Whether a first program is learned, and it is known how sure its edits are. */
 const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
-const isSignedOff = ({ assessment, cards }: ProjectState) =>
-  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0 && !openText({ cards });
+const isSignedOff = ({ assessment, cards, confidence }: ProjectState) =>
+  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0 && !openText({ cards, confidence });
 /** Whether the person has answered what the program asked first. */
 const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
   project.answers.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.need_review === 0;
 
 /** How the tables stand, with nothing said of what is not known. */
-function tablesText({ assessment, cards }: ProjectState): string {
+function tablesText({ assessment, cards, confidence }: ProjectState): string {
   if (!assessment?.assets.length) return "MeshForge is working out how sure it is of each table.";
-  return [`${signedText(assessment, countSigned(assessment, cards))}.`, leftText(assessment, openText({ cards }))].filter(Boolean).join(" ");
+  return [`${signedText(assessment, countSigned(assessment, cards))}.`, leftText(assessment, openText({ cards, confidence }))].filter(Boolean).join(" ");
 }
 
 export const TOUR_STOPS: readonly TourStop[] = [

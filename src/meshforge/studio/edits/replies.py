@@ -57,7 +57,7 @@ class ReplyToQuestion(Edit):
 
     def describe(self, project: Project) -> str:
         if self._is_put_off:
-            return "question snoozed" if self.later else "question rejected"
+            return "question snoozed" if self.later else "question left open"
         question, choice, asset = self._asked, self._choice, self._asked.asset
         match question.kind:
             case "candidate" | "label":

@@ -135,7 +135,11 @@ class Session:
             return None
         if found.assessment and found.assessment.assets:
             open_cards = {card.asset for card in cards if card.is_open}
-            signed = [row for row in found.assessment.assets if row.state == "signed" and row.asset not in open_cards]
+            signed = [
+                row
+                for row in found.assessment.assets
+                if row.state == "signed" and (row.reviewed or row.asset not in open_cards)
+            ]
             return f"{len(signed)} of {len(cards)} signed off"
         if not any(label >= 0 for card in cards for label in card.labels):
             return "no labels yet"

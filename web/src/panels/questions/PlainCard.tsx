@@ -2,7 +2,7 @@
 import { TriangleAlert } from "lucide-react";
 import { useMemo, useState } from "react";
 import { demonstrate } from "../../commands/learn";
-import { canBeRight, groupReply, putOff, reply, showAsked } from "../../commands/question";
+import { canBeRight, groupReply, labelByHand, putOff, reply, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
 import { failingGoals } from "../../store/goals";
@@ -87,7 +87,7 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
   const lines = choicesOf(question, exceptions);
   const runOf = (id: string) => lines.find((line) => line.id === id)?.run;
   const accept = kind === "demonstrate" ? () => demonstrate(asset) : (runOf("yes") ?? (isOfLabels ? lines[0]?.run : undefined));
-  const reject = isOfLabels ? () => void reply(question, {}) : runOf("no");
+  const reject = isOfLabels ? () => labelByHand(question) : runOf("no");
   const [later, show] = [() => void putOff(question), () => showAsked(question)];
   const canShow = hulls.length > 0;
   const doing = useCardKeys({
@@ -110,8 +110,8 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
         </Reply>
       )}
       {isOfLabels && (
-        <Reply keyName="N" look="quiet" tip="Asks another question; label these hulls yourself where none fits" onClick={doing(reject)}>
-          None of these
+        <Reply keyName="N" look="quiet" tip="Selects the hulls in Label, to say it there; the question does not come back" onClick={doing(reject)}>
+          None of these: label {hulls.length > 1 ? "them" : "it"}
         </Reply>
       )}
       {canShow && <ShowReply onClick={doing(show)} />}

@@ -26,14 +26,16 @@ export function ResultReplies({ question }: { question: ReviewQuestionView }) {
     setWrong(true);
     visit(asset, { kind: "source" }); // where hulls can be selected that a rule should have taken
   };
+  // Enter and blue are for what is likely: a result that is held for wrong, or fails a goal, is never accepted by the way
+  const isLikely = useProject((state) => (state.confidence[asset]?.probability ?? 0) >= 0.5) && !goals.length;
   const [later, show] = [() => void putOff(question), () => showAsked(question)];
-  const doing = useCardKeys({ later, show, ...(asks && { choices: [right, reject], accept: right }), ...(has("wrong") && { reject }) });
+  const doing = useCardKeys({ later, show, ...(asks && { choices: [right, reject], accept: right, hasDefault: isLikely }), ...(has("wrong") && { reject }) });
   return (
     <>
       {wrong && has("wrong") && <WhatIsRight question={question} tell={(next) => void tell(next)} />}
       <div className={css.row}>
         {asks && (
-          <Reply keyName="Y" look={wrong ? "plain" : "primary"} icon={Check} onClick={doing(right)}>
+          <Reply keyName="Y" look={wrong || !isLikely ? "plain" : "primary"} icon={Check} onClick={doing(right)}>
             {goals.length ? "Accept it all the same" : "Right"}
           </Reply>
         )}

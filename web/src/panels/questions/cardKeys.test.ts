@@ -26,6 +26,12 @@ describe("a key on the card", () => {
     expect(preventDefault).toHaveBeenCalledOnce();
   });
 
+  it("Enter takes nothing where no choice is likely", () => {
+    const choices = [vi.fn(), vi.fn()];
+    pressOnCard({ key: "Enter", preventDefault: vi.fn() } as never, { choices, accept: choices[0] as never, hasDefault: false }, vi.fn());
+    expect(choices[0]).not.toHaveBeenCalled();
+  });
+
   it("that the card has not says which ones it has", () => {
     pressOnCard({ key: "y", preventDefault: vi.fn() } as never, { choices: [vi.fn(), vi.fn()], later: vi.fn() }, vi.fn());
     expect(useToasts.getState().toasts.at(-1)?.text).toBe("Here 1 to 2 choose and L puts off.");

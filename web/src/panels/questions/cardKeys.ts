@@ -10,6 +10,8 @@ export interface CardKeys {
   readonly reject?: () => void;
   readonly later?: () => void;
   readonly show?: () => void;
+  /** Whether Enter takes the first choice; left out: yes. */
+  readonly hasDefault?: boolean;
 }
 
 interface CardFocus {
@@ -21,7 +23,7 @@ interface CardFocus {
 
 export const CardFocusContext = createContext<CardFocus>({ keys: { current: {} }, hold: () => undefined });
 
-const LETTERS: Readonly<Record<string, Exclude<keyof CardKeys, "choices">>> = { Y: "accept", N: "reject", L: "later", S: "show" };
+const LETTERS: Readonly<Record<string, Exclude<keyof CardKeys, "choices" | "hasDefault">>> = { Y: "accept", N: "reject", L: "later", S: "show" };
 const WORDS = { accept: "accepts", reject: "rejects", later: "puts off", show: "shows" } as const;
 
 /** Tells what keys mean on a card, null for one that has none, and gives a function that does a thing and keeps the focus. */
@@ -60,5 +62,6 @@ export function pressOnCard(event: KeyboardEvent, keys: CardKeys, hold: () => vo
   event.preventDefault();
   if (event.repeat) return; // a key that is held must not answer questions that nobody saw
   hold();
+  if (isEnter && keys.hasDefault === false) return sayKeys(keys);
   ((letter ? keys[letter] : keys.choices?.[Number(key) - 1]) ?? (() => sayKeys(keys)))();
 }

@@ -115,8 +115,9 @@ function VerdictSection({ asset }: { asset: string }) {
 }
 
 function ReviewState({ card }: { card: Card }) {
+  const sure = useProject((state) => state.confidence[card.asset]);
   if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
-  if (isVoid(card)) return <span className={css.warn}>changed since you accepted it</span>;
+  if (isVoid(card, sure)) return <span className={css.warn}>changed since you accepted it</span>;
   if (card.review === "accepted") return <span className={css.good}>✓ accepted</span>;
   if (card.review === "wrong") return <span className={css.warn}>✗ wrong</span>;
   if (card.output === "failed") return <span className={css.bad}>✗ failed</span>;

@@ -1,6 +1,7 @@
 // Which outputs are copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useMemo, useRef, useState } from "react";
+import { countSigned } from "../../store/assessment";
 import { openText } from "../../store/goals";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
@@ -47,6 +48,7 @@ function Form() {
   const outputs = useMemo(() => listExportable(Object.values(cards), confidence), [cards, confidence]);
   const solid = useProject((state) => solidText(outputs[what], state));
   const count = outputs[what].length;
+  const later = useProject(({ assessment }) => (assessment ? countSigned(assessment, cards) : 0)) - outputs.signed.length;
   const options = [
     { value: "signed", label: `Signed off (${outputs.signed.length})` },
     { value: "all", label: `All (${outputs.all.length})` },
@@ -66,6 +68,12 @@ function Form() {
       <input id="export-folder" className={css.field} value={folder} onChange={(event) => setFolder(event.target.value)} spellCheck={false} />
       <span />
       <p className={css.dim}>{why ?? `Below ${project}.`}</p>
+      {later > 0 && (
+        <>
+          <span />
+          <p className={css.warn}>{later} more {later === 1 ? "is" : "are"} signed off, and not written as {later === 1 ? "it is" : "they are"} now: apply the program first.</p>
+        </>
+      )}
       {goals && (
         <>
           <span />
