@@ -270,7 +270,9 @@ def number_selections(
 
 
 def output_digest(stamp: batch.Stamp | None) -> str | None:
-    """Return one digest of all files of an output, None where there is none."""
+    """Return one digest of all files of an output but its labels, which change with every answer though the result is
+    the same; None where there is none."""
     if not stamp or stamp.status not in ("edited", "unchanged"):
         return None
-    return batch.text_digest("\n".join(f"{name} {digest}" for name, digest in sorted(stamp.outputs.items())))
+    rows = (f"{name} {digest}" for name, digest in sorted(stamp.outputs.items()) if not name.endswith(".labels.json"))
+    return batch.text_digest("\n".join(rows))

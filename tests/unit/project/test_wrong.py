@@ -163,6 +163,16 @@ def test_a_result_that_is_not_the_accepted_one_any_more_needs_review_however_sur
     assert OTHER in say(project, "right", OTHER).assessment.signed_off
 
 
+def test_an_accepted_result_that_comes_out_the_same_with_other_labels_stays_accepted(project: Project) -> None:
+    write(project)
+    say(project, "right", OTHER)
+    project.set_labels(OTHER, {"rail": None})  # which no rule takes
+    write(project)
+    (row,) = [row for row in project.status(workers=0).assets if row.id == OTHER]
+    assert (row.review, row.stale) == ("accepted", ())
+    assert OTHER in look(project).assessment.signed_off
+
+
 @pytest.mark.slow
 def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(project: Project, run: Run) -> None:
     write(project)
