@@ -1,7 +1,5 @@
 """What all that is known of a family says about the label of each hull."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -55,14 +53,14 @@ class FamilyPosterior:
     by_others: Floats
 
     @staticmethod
-    def of(table: FamilyTable, seen: Observations) -> FamilyPosterior:
+    def of(table: FamilyTable, seen: Observations) -> "FamilyPosterior":
         """Return that of a family whose meshes stand upright."""
         if not seen.labels or not len(table.owner):
             nothing = np.zeros((len(table.owner), 0))
             return FamilyPosterior(table, seen, nothing, nothing)
         return FamilyPosterior(table, seen, *infer_chances(table, seen))
 
-    def discount_rebuilt(self) -> FamilyPosterior:
+    def discount_rebuilt(self) -> "FamilyPosterior":
         """Return the same, with the label of a rebuilt hull no surer than the rebuild was, or than others make it.
 
         Labels of a rebuild follow from one inference over the family: where it errs, they agree in their error.
@@ -74,7 +72,7 @@ class FamilyPosterior:
         others = infer_chances(self.table, without)[0]
         return replace(self, chances=_bound_rebuilt(self.seen, self.chances, others))
 
-    def weigh(self, evidence: Floats) -> FamilyPosterior:
+    def weigh(self, evidence: Floats) -> "FamilyPosterior":
         """Return the same with more evidence (n, labels) [nats] on labels, which counts for look-alikes too."""
         chances, by_others = infer_chances(self.table, self.seen, evidence=evidence)
         return replace(self, chances=chances, by_others=by_others)

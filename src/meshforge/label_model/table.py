@@ -1,7 +1,5 @@
 """The hulls of a family as a table of comparable rows, and what is said of their labels."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -46,7 +44,7 @@ class ColumnScale:
     spread: Floats
 
     @staticmethod
-    def of(rows: Floats) -> ColumnScale:
+    def of(rows: Floats) -> "ColumnScale":
         """Return the medians and spreads of some rows (n, columns)."""
         if not len(rows):
             return ColumnScale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
@@ -76,7 +74,7 @@ class FamilyTable:
     metric: Floats
 
     @staticmethod
-    def of(described: Sequence[tuple[Floats, Ints]], metric: Floats | None = None) -> FamilyTable:
+    def of(described: Sequence[tuple[Floats, Ints]], metric: Floats | None = None) -> "FamilyTable":
         """Return the table of `rows` and `touching` of each mesh; metric: None for the one that ships."""
         rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in described)])
         sizes = np.array([len(own) for own, _ in described], dtype=np.int64)
@@ -102,12 +100,12 @@ class FamilyTable:
     def _search(self) -> LookalikeSearch:
         return LookalikeSearch(self.rows, self.metric, self.owner)
 
-    def find_lookalikes(self, seen: Observations) -> Lookalikes:
+    def find_lookalikes(self, seen: "Observations") -> Lookalikes:
         """Return the nearest hulls of each; of too many meshes, those with given labels are looked at."""
         which = seen.given if seen.given.any() else seen.known
         return self._search.find(np.unique(self.owner[which]).tolist())
 
-    def turn(self, turned: Iterator[tuple[slice, Floats]]) -> FamilyTable:
+    def turn(self, turned: Iterator[tuple[slice, Floats]]) -> "FamilyTable":
         """Return the table with other rows for some meshes."""
         rows = self.rows.copy()
         for span, found in turned:
@@ -132,7 +130,7 @@ class Observations:
     given: Bools
 
     @staticmethod
-    def of(observed: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> Observations:
+    def of(observed: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> "Observations":
         """Return what annotations of hulls say; a label that was inferred says nothing but what it was inferred over.
 
         vocabulary: labels that hulls may have though nothing says so yet.

@@ -47,9 +47,9 @@ def read_family_state(
     wrong = {a: [one.seen for one in some if one.verdict == "wrong"] for a, some in every.items() if a in own}
     accepted = {asset: one for asset, one in last.items() if one.verdict == "accepted"}
     corrected = frozenset(_fit({asset: one.meant for asset, one in last.items()}, present))
-    standing = {a for a, one in accepted.items() if _stands(store, one, present, meshes[a], inputs.get(a))}
+    unchanged = {a for a, one in accepted.items() if _stands(store, one, present, meshes[a], inputs.get(a))}
     changed = (
-        a for a, one in accepted.items() if a not in {*standing, *demos} and _differs(store, one, present, meshes[a])
+        a for a, one in accepted.items() if a not in {*unchanged, *demos} and _differs(store, one, present, meshes[a])
     )
     actions = actions_of([demo.steps for demo in demos.values()])
     shown = (asset for asset in store.demonstration_ids() if asset in meshes or asset in lost)
@@ -62,7 +62,7 @@ def read_family_state(
         tuple(line.answer for line in feedback.answers.values() if line.fits(actions)),
         meant=_fit(meant, present),
         failed=_fit({asset: some[-1] for asset, some in wrong.items() if some}, present),
-        accepted=frozenset(standing),
+        accepted=frozenset(unchanged),
         corrected=corrected,
         wrong=frozenset(a for a in own if last[a].verdict == "wrong") - corrected,
         edited=frozenset(meshes.keys() & store.layout.manual_edits.ids),
@@ -95,10 +95,9 @@ def _stands(
 
 def _differs(store: Store, verdict: VerdictEvent, program: Program | None, mesh: SymbolicMesh) -> bool:
     """Whether an accepted result is another one by now: as it is written, or as the program would make it."""
-    if verdict.output != output_digest(batch.read_stamp(store.layout.edited, verdict.asset)):
-        return True
-    is_own = program is not None and verdict.seen and not verdict.meant
-    return bool(is_own and program and run.run_for_selections(store, program, mesh) != verdict.seen)
+    is_other = verdict.output != output_digest(batch.read_stamp(store.layout.edited, verdict.asset))
+    own = program if verdict.seen and not verdict.meant else None
+    return is_other or (own is not None and run.run_for_selections(store, own, mesh) != verdict.seen)
 
 
 def _fit(rows: Mapping[str, Sequence[batch.RuleSelection]], program: Program | None) -> dict[str, Selections]:

@@ -1,7 +1,5 @@
 """events.jsonl: what people said of a family, one JSON object a line in the order in which it was said."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -43,7 +41,7 @@ class Origin(NamedTuple):
     origin: QuestionAndReply | None = None
 
     @staticmethod
-    def of(question: ReviewQuestion, reply: ReviewReply) -> Origin:
+    def of(question: ReviewQuestion, reply: ReviewReply) -> "Origin":
         return Origin(question.id, reply.by, QuestionAndReply(asked=question.to_json(), reply=reply.to_json()))
 
 
@@ -114,7 +112,7 @@ class LabelBefore(JsonFile):
     label: str
     source: symbolic.LabelSource
     confidence: Probability
-    given: LabelBefore | None = None
+    given: "LabelBefore | None" = None
 
     @model_serializer(mode="wrap")
     def _leave_out_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
@@ -122,7 +120,7 @@ class LabelBefore(JsonFile):
         return {name: value for name, value in found.items() if name != "given" or value is not None}
 
     @staticmethod
-    def of(label: symbolic.Label | None) -> LabelBefore | None:
+    def of(label: symbolic.Label | None) -> "LabelBefore | None":
         if label is None:
             return None
         given = LabelBefore.of(label.given)
@@ -132,7 +130,7 @@ class LabelBefore(JsonFile):
     def annotation(self) -> symbolic.Label:
         return symbolic.Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
 
-    def rename(self, old: str, new: str) -> LabelBefore:
+    def rename(self, old: str, new: str) -> "LabelBefore":
         """Return the same where a label has another name."""
         given = self.given.rename(old, new) if self.given else None
         return self.model_copy(update={"label": new if self.label == old else self.label, "given": given})
@@ -158,7 +156,7 @@ class LabelFixEvent(_Withdrawable):
     def fix(self) -> synthesis.LabelFix:
         return synthesis.LabelFix(self.asset, self.hull, self.was, self.to)
 
-    def rename(self, old: str, new: str) -> LabelFixEvent:
+    def rename(self, old: str, new: str) -> "LabelFixEvent":
         """Return the same where a label has another name."""
         was, to = (new if label == old else label for label in (self.was, self.to))
         before = self.before.rename(old, new) if self.before else None

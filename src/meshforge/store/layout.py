@@ -1,7 +1,5 @@
 """Names each file of a project once, with what else depends on it; reads and writes JSON files."""
 
-from __future__ import annotations
-
 import codecs
 import re
 from dataclasses import dataclass
@@ -64,8 +62,8 @@ class OneFile(ProjectFile):
     @overload
     def __get__(self, layout: None, owner: type) -> Self: ...
     @overload
-    def __get__(self, layout: Layout, owner: type) -> Path: ...
-    def __get__(self, layout: Layout | None, owner: type) -> Self | Path:
+    def __get__(self, layout: "Layout", owner: type) -> Path: ...
+    def __get__(self, layout: "Layout | None", owner: type) -> Self | Path:
         return self if layout is None else self.path(layout.folder)
 
 
@@ -75,8 +73,8 @@ class AssetFile(ProjectFile):
     @overload
     def __get__(self, layout: None, owner: type) -> Self: ...
     @overload
-    def __get__(self, layout: Layout, owner: type) -> AssetPaths: ...
-    def __get__(self, layout: Layout | None, owner: type) -> Self | AssetPaths:
+    def __get__(self, layout: "Layout", owner: type) -> "AssetPaths": ...
+    def __get__(self, layout: "Layout | None", owner: type) -> "Self | AssetPaths":
         return self if layout is None else AssetPaths(layout.folder, self)
 
 

@@ -1,7 +1,5 @@
 """The symbolic hull, a convex shape with a name, a body and a label; and the label, with its confidence and source."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
@@ -62,10 +60,10 @@ class Label:
     name: str
     confidence: float = 1.0
     source: LabelSource = "user"
-    given: Label | None = None
+    given: "Label | None" = None
 
     @staticmethod
-    def of(value: Label | str) -> Label:
+    def of(value: "Label | str") -> "Label":
         """Return a label as it is; one that is given by its name is a person's, and sure."""
         return value if isinstance(value, Label) else Label(value)
 
@@ -74,7 +72,7 @@ class Label:
         """Its own, and that of the label that it replaced."""
         return (self.name, *(self.given.names if self.given else ()))
 
-    def rename(self, old: str, new: str) -> Label:
+    def rename(self, old: str, new: str) -> "Label":
         """Return the same where a label has another name; a class that gets one is a label of a person, or inferred."""
         if self.name == old and self.source in CLASS_SOURCES:
             return Label(new) if self.source == "step" else Label(new, self.confidence, "propagated")
@@ -147,8 +145,8 @@ class Hull:
         metadata = {"name": self.name, "body": self.body, "label": self.label}
         return trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), process=False, metadata=metadata)
 
-    def with_label(self, annotation: Label | None) -> Hull:
+    def with_label(self, annotation: Label | None) -> "Hull":
         return replace(self, annotation=annotation)
 
-    def move(self, pose: Pose) -> Hull:
+    def move(self, pose: Pose) -> "Hull":
         return replace(self, shape=self.shape.move(pose))

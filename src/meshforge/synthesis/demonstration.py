@@ -1,8 +1,6 @@
 """Demonstrations: what a person did, step by step, on one mesh, and what all of them together say about each rule; what
 learning leaves open, and what a person says to it: answers, and corrections of labels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -82,7 +80,7 @@ class Demonstration:
         """The hulls of the steps that are not open, by the numbers of their rules."""
         return {step.rule: step.select for step in self.steps if step.select is not None}
 
-    def with_selection(self, rule: int, select: Iterable[str]) -> Demonstration:
+    def with_selection(self, rule: int, select: Iterable[str]) -> "Demonstration":
         """Return the same with other hulls selected in a step that is there."""
         steps = [Step(one.rule, select, one.action, one.label) if one.rule == rule else one for one in self.steps]
         return Demonstration(self.mesh, steps, self.name)
@@ -114,7 +112,7 @@ LabelChange = tuple[int, str]
 """A hull by its index, and the label it gets."""
 
 
-def to_fix(example: Example, change: LabelChange) -> LabelFix:
+def to_fix(example: Example, change: LabelChange) -> "LabelFix":
     """Return a change as it is called outside."""
     hull = example.mesh.hulls[change[0]]
     return LabelFix(example.name, hull.name, hull.label, change[1])
@@ -186,7 +184,7 @@ class LabelFix:
         return f"{self.asset}#{self.hull}={self.to}"
 
     @property
-    def reverse(self) -> LabelFix | None:
+    def reverse(self) -> "LabelFix | None":
         """The correction that undoes this one, None where the hull had no label."""
         return None if self.was is None else LabelFix(self.asset, self.hull, self.to, self.was)
 

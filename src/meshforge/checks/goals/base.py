@@ -1,7 +1,5 @@
 """What a goal is, the asset that it is tried on, and what comes of that."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -50,7 +48,7 @@ class Goal(Operation, ABC):
         return replace(self, **renamed) if renamed else self  # type: ignore[type-var]  # it is a dataclass
 
     @abstractmethod
-    def find_failure(self, subject: GoalSubject) -> Failure | None:
+    def find_failure(self, subject: "GoalSubject") -> Failure | None:
         """Return why an asset does not do it, None where it does. Raises NotApplicableError."""
 
 
@@ -58,7 +56,7 @@ class Goal(Operation, ABC):
 class MissingGoal(MissingOperation, Goal):
     """A goal of a plug-in that cannot be loaded here."""
 
-    def find_failure(self, subject: GoalSubject) -> NoReturn:
+    def find_failure(self, subject: "GoalSubject") -> NoReturn:
         self.fail()
 
 
@@ -130,7 +128,7 @@ class GoalSubject:
         return cls(replay.start, end, turn, upright, extremity, bool(program.orient and program.orient.names_z))
 
     @cached_property
-    def level(self) -> GoalSubject:
+    def level(self) -> "GoalSubject":
         """The same, its level faces level, such as seats, tops and feet: centres of landmarks are a few degrees off."""
         normals, areas = face_normals(self.start)
         ways, up = normals @ self.turn.T, np.eye(3)[2]

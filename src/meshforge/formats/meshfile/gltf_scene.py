@@ -1,7 +1,5 @@
 """The scene of a glTF file: which nodes are in it, where each of them is, and all of it as surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -42,7 +40,7 @@ def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
     return check_surfaces(found, where)
 
 
-def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface]:
+def _read_surface(scene: "GltfScene", placement: "Placement") -> Iterator[RawSurface]:
     if "skin" in placement.node:
         problem = f"node {placement.node.get('name') or placement.index!r} has {SKINNED}"
         raise AssetError(problem, where=str(scene.path), remedy="Apply its pose, and export it without a skin.")
@@ -82,7 +80,7 @@ class GltfScene:
         self._meshes: dict[int, gltf_meshes.GltfMesh] = {}
 
     @staticmethod
-    def of(data: bytes, path: Path) -> GltfScene:
+    def of(data: bytes, path: Path) -> "GltfScene":
         """Return the scene in the bytes of the file at a path."""
         container = Container.of(data)
         return GltfScene(parse_json(container.text), container.binary, path)

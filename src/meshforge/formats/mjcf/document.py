@@ -1,7 +1,5 @@
 """What is kept of an MJCF to write it back, its files as one tree, and the names of its geoms and bodies."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -28,7 +26,7 @@ class MjcfDocument(Document):
     refusal: str = ""
 
     @property
-    def tree(self) -> MjcfTree:
+    def tree(self) -> "MjcfTree":
         """The elements of all files, parsed from the kept bytes."""
         return read_tree(self.sources[0].path, {source.path: source.raw for source in self.sources})
 
@@ -60,7 +58,7 @@ class MjcfNode:
 
     element: Element
     source: int
-    children: list[MjcfNode] = field(default_factory=list)
+    children: "list[MjcfNode]" = field(default_factory=list)
 
     @property
     def tag(self) -> str:
@@ -70,7 +68,7 @@ class MjcfNode:
     def attributes(self) -> dict[str, str]:
         return self.element.attributes
 
-    def each(self, tag: str) -> Iterator[MjcfNode]:
+    def each(self, tag: str) -> "Iterator[MjcfNode]":
         """Return the direct children of that tag."""
         return (child for child in self.children if child.tag == tag)
 
@@ -80,7 +78,7 @@ class MjcfNode:
         own = self.attributes
         return self.tag == "joint" and "joint2" in own and own.get("active") != "false"
 
-    def walk(self) -> Iterator[MjcfNode]:
+    def walk(self) -> "Iterator[MjcfNode]":
         """Yield this node and all below it, in document order."""
         waiting = [self]
         while waiting:

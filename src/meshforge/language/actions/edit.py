@@ -1,7 +1,5 @@
 """What an action is given and what it gives back: hull templates, a group of hulls, and the edit of it."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -27,7 +25,7 @@ class HullGroup:
 
     hulls: tuple[Hull, ...]
     mesh: SymbolicMesh
-    templates: Mapping[str, Template]
+    templates: "Mapping[str, Template]"
 
     @property
     def length(self) -> float:
@@ -62,7 +60,7 @@ class HullGroup:
         """Whether `points` stand in for a round primitive."""
         return any(hull.shape.kind not in ("polytope", "box") for hull in self.hulls)
 
-    def template(self, name: str) -> Template:
+    def template(self, name: str) -> "Template":
         check_templates([name], self.templates)
         return self.templates[name]
 
@@ -100,7 +98,7 @@ class GroupEdit:
     @staticmethod
     def insert(
         shapes: tuple[Shape, ...], group: HullGroup, *, removes: bool = True, note: str | None = None
-    ) -> GroupEdit:
+    ) -> "GroupEdit":
         """Return the edit that puts shapes made from the whole group into the mesh."""
         return GroupEdit(tuple(NewShape(shape, group.largest, group.hulls) for shape in shapes), removes, note)
 

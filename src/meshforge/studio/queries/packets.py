@@ -126,17 +126,14 @@ def _has_hull(source: SymbolicMesh, hull: Hull) -> bool:
     return mine is hull.shape or digest(mine) == digest(hull.shape)
 
 
-_ROUNDING = 1e-5  # of the extents, for formats in single precision
-
-
 def _is_other_shape(before: SymbolicMesh, hull: Hull) -> bool:
     """Whether a hull of that name was of another shape before; one that was rounded when it was written is the same."""
     was = before.hull_of(hull.name).shape if hull.name in before.index else hull.shape
     if was is hull.shape:
         return False
     one, two = (np.stack([shape.aabb.min, shape.aabb.max]) for shape in (was, hull.shape))
-    is_same_box = np.allclose(one, two, rtol=0, atol=_ROUNDING * float(np.ptp(one, axis=0).max()))
-    return not (is_same_box and np.isclose(was.volume, hull.shape.volume, rtol=10 * _ROUNDING))
+    is_same_box = np.allclose(one, two, rtol=0, atol=1e-5 * float(np.ptp(one, axis=0).max()))  # in single precision
+    return not (is_same_box and np.isclose(was.volume, hull.shape.volume, rtol=1e-4))
 
 
 def _names_not_in(mesh: SymbolicMesh, other: SymbolicMesh) -> tuple[str, ...]:

@@ -134,13 +134,9 @@ class Session:
         if not cards or any(card.hulls is None and card.error is None for card in cards):
             return None
         if found.assessment and found.assessment.assets:
-            open_cards = {card.asset for card in cards if card.is_open}
-            signed = [
-                row
-                for row in found.assessment.assets
-                if row.state == "signed" and (row.reviewed or row.asset not in open_cards)
-            ]
-            return f"{len(signed)} of {len(cards)} signed off"
+            reviewed = {row.asset: row.reviewed for row in found.assessment.assets if row.state == "signed"}
+            signed = sum(reviewed[one.asset] or not one.is_open for one in cards if one.asset in reviewed)
+            return f"{signed} of {len(cards)} signed off"
         if not any(label >= 0 for card in cards for label in card.labels):
             return "no labels yet"
         return "not reviewed yet" if found.program.text else "no program yet"

@@ -1,7 +1,5 @@
 """Learning tried in one frame after another: how far each comes, and what frames have in common, done once."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -47,14 +45,14 @@ class OrientationSearch:
         self._extractors: dict[frozenset[Signature], language.Extractor] = {}
         self._none_up_to: dict[frozenset[Signature], int] = {}
 
-    def attempt(self, orient: language.Orient) -> FrameAttempt | None:
+    def attempt(self, orient: language.Orient) -> "FrameAttempt | None":
         """Return learning in the frame of a directive, as far as it came; None where a mesh cannot be turned so."""
         if orient not in self._by_orient:
             self._budget.check()
             self._by_orient[orient] = self._begin(orient)
         return self._by_orient[orient]
 
-    def _begin(self, orient: language.Orient) -> FrameAttempt | None:
+    def _begin(self, orient: language.Orient) -> "FrameAttempt | None":
         """Directives that turn every mesh alike share one attempt."""
         try:
             turned = [turner.turn(orient) for turner in self._turners]
@@ -70,7 +68,7 @@ class OrientationSearch:
             self._by_turns[turns] = FrameAttempt(self, replays)
         return self._by_turns[turns]
 
-    def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
+    def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> "RuleInFrame":
         """Return the next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example_of(replay, self._demos[replay.name], rule))]
         found = analyze_rule(examples, self.task.frame.labels, self.task.options)
@@ -78,7 +76,7 @@ class OrientationSearch:
             self.floors[rule.number - 1] = 2
         return found
 
-    def find_smallest(self, rule: RuleInFrame, most: int) -> language.Extractor | None:
+    def find_smallest(self, rule: "RuleInFrame", most: int) -> language.Extractor | None:
         """Return the extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
         if rule.base or rule.strays or most < rule.least:
             return rule.base
@@ -132,7 +130,7 @@ class FrameAttempt:
             return False
         return extractor is not None
 
-    def _apply(self, extractor: language.Extractor, found: RuleInFrame) -> None:
+    def _apply(self, extractor: language.Extractor, found: "RuleInFrame") -> None:
         place, task, self._next = len(self.sizes), self._search.task, None
         rule, known, delta = task.rules[place], self._search.known[place : place + 1], task.options.geo_extremity
         fits = [

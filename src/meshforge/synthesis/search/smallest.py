@@ -1,8 +1,6 @@
 """The smallest extractor that selects on every example what was shown (paper, algorithm SynthesizeExtractor); where
 none does, the nearest one and how it differs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,7 +45,7 @@ class Miss:
     """No extractor within the limits; why: one sentence for the user."""
 
     why: str
-    nearest: NearestExtractor
+    nearest: "NearestExtractor"
     tried: SearchEffort
 
 
@@ -55,7 +53,7 @@ class Miss:
 class Unfinished:
     """The time ran out; nearest: the nearest miss so far."""
 
-    nearest: NearestExtractor | None
+    nearest: "NearestExtractor | None"
     tried: SearchEffort
 
 
@@ -149,7 +147,7 @@ class Search:
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _find_nearest(self, size: int, budget: TimeBudget) -> NearestExtractor | None:
+    def _find_nearest(self, size: int, budget: TimeBudget) -> "NearestExtractor | None":
         terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
         bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]
